@@ -30,7 +30,8 @@ void leave(const std::string& file) {
 
 }  // namespace
 
-TEST_CASE("what a killed process left is removed by the next that writes that file, and no other's is") {
+TEST_CASE("what a killed process left is removed by the next that writes that file, and no other's is",
+          "[promise:files]") {
     const Folder folder;
     const std::string file = folder / "a";
     leave(folder / "a.0.part");
@@ -54,7 +55,8 @@ TEST_CASE("what a killed process left is removed by the next that writes that fi
     CHECK(folder.files().size() == 3);  // the link and another file's
 }
 
-TEST_CASE("threads that write one file at once, beside what others left, lose none and leave nothing") {
+TEST_CASE("threads that write one file at once, beside what others left, lose none and leave nothing",
+          "[promise:files]") {
     const Folder folder;
     const std::string file = folder / "a";
     std::atomic<int> wrong{0}, refused{0};

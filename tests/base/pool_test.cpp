@@ -32,7 +32,8 @@ std::set<std::thread::id> workers_of(Pool& pool, unsigned threads, unsigned awai
 
 }  // namespace
 
-TEST_CASE("a pool's works are done by the caller and as many threads as it asks for, which are used again") {
+TEST_CASE("a pool's works are done by the caller and as many threads as it asks for, which are used again",
+          "[promise:models][promise:bits]") {
     Pool pool;
     const std::set<std::thread::id> all = workers_of(pool, 5, 5);
     CHECK(all.size() == 5);
@@ -44,7 +45,8 @@ TEST_CASE("a pool's works are done by the caller and as many threads as it asks 
     CHECK(std::includes(all.begin(), all.end(), three.begin(), three.end()));
 }
 
-TEST_CASE("works of several threads, and works within works, share a pool and all end") {
+TEST_CASE("works of several threads, and works within works, share a pool and all end",
+          "[promise:models][promise:bits]") {
     Pool pool;
     std::atomic<int> done{0};
     std::vector<std::thread> callers;

@@ -9,7 +9,7 @@
 
 using namespace csgrt;
 
-TEST_CASE("display values are decoded by the formula of sRGB, to the last bits") {
+TEST_CASE("display values are decoded by the formula of sRGB, to the last bits", "[promise:colors]") {
     CHECK(linear_of_display(0) == 0);
     CHECK(linear_of_display(1) == 1);
     double before = -1, largest_error = 0;
@@ -26,7 +26,7 @@ TEST_CASE("display values are decoded by the formula of sRGB, to the last bits")
     CHECK(std::isnan(linear_of_display(std::numeric_limits<double>::quiet_NaN())));
 }
 
-TEST_CASE("decoded display values have the same bits on every machine") {
+TEST_CASE("decoded display values have the same bits on every machine", "[promise:colors]") {
     CHECK(std::bit_cast<std::uint64_t>(linear_of_display(0.5)) == 0x3fcb65b3392f5354);
     Fnv1a bits;
     for (int byte = 0; byte < 256; ++byte) bits.add(linear_of_display(byte / 255.0));

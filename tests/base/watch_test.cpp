@@ -20,7 +20,8 @@ void wait_for(const std::atomic<int>& calls, int number) {
 
 }  // namespace
 
-TEST_CASE("the caller's thread tells of work that another does: at the beginning, meanwhile, and at the end") {
+TEST_CASE("the caller's thread tells of work that another does: at the beginning, meanwhile, and at the end",
+          "[promise:interrupts]") {
     std::vector<double> told;
     std::atomic<int> calls{0};
     bool is_callers = true;

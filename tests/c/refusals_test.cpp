@@ -92,7 +92,7 @@ TEST_CASE("defaults of structs in C are those of C++") {
     CHECK(std::strcmp(csgrt_version(), CSGRT_VERSION_STRING) == 0);
 }
 
-TEST_CASE("every argument of C that is NULL is refused by its name") {
+TEST_CASE("every argument of C that is NULL is refused by its name", "[promise:c]") {
     const Wheels w;
     const csgrt_view view CSGRT_VIEW;
     csgrt_rays rays = CSGRT_RAYS;
@@ -139,7 +139,8 @@ TEST_CASE("every argument of C that is NULL is refused by its name") {
     csgrt_verifier_free(nullptr);
 }
 
-TEST_CASE("structs of C of an earlier version have the defaults of later members, and wrong sizes are refused") {
+TEST_CASE("structs of C of an earlier version have the defaults of later members, and wrong sizes are refused",
+          "[promise:c]") {
     const Wheels w;
     csgrt_view view = CSGRT_VIEW;
     view.width = 7;
@@ -165,7 +166,7 @@ TEST_CASE("structs of C of an earlier version have the defaults of later members
     CHECK_REFUSED(csgrt_model_get_info(w.model, &info), CSGRT_ERROR_USAGE, "info->size is 0");
 }
 
-TEST_CASE("what C passes on is refused with its index, its value or its place") {
+TEST_CASE("what C passes on is refused with its index, its value or its place", "[promise:c]") {
     Wheels w;
     OwnedPartitions partitions;
     REQUIRE_OK(csgrt_partitions_create(&partitions));
@@ -357,7 +358,7 @@ TEST_CASE("no number that C sets is taken if it is none, or has no end") {
                  light.color, light.intensity, light.angle, light.direction, info.ambient, info.background, matrix);
 }
 
-TEST_CASE("scenes are built in C of solids by the names of their members, meshes and trees") {
+TEST_CASE("scenes are built in C of solids by the names of their members, meshes and trees", "[promise:c]") {
     OwnedScene scene;
     OwnedModel model;
     REQUIRE_OK(csgrt_scene_create(&scene));
@@ -445,7 +446,7 @@ TEST_CASE("scenes are built in C of solids by the names of their members, meshes
     CHECK((std::strcmp(info.title, "a part") == 0 && info.background.x == 1));
 }
 
-TEST_CASE("a progress function of C ends a call") {
+TEST_CASE("a progress function of C ends a call", "[promise:c][promise:interrupts]") {
     csgrt_settings settings = CSGRT_SETTINGS;
     int calls = 0;
     settings.user = &calls;
@@ -460,7 +461,7 @@ TEST_CASE("a progress function of C ends a call") {
     CHECK(calls == 2);
 }
 
-TEST_CASE("a verifier in C passes, and says with a status that it does not") {
+TEST_CASE("a verifier in C passes, and says with a status that it does not", "[promise:c]") {
     const auto verify = [](const csgrt_scene* scene, const csgrt_settings* settings, csgrt_verification* result) {
         OwnedVerifier verifier;
         std::vector<csgrt_ray> rays(50);

@@ -320,7 +320,7 @@ for name, values in answers.items():
 
 }  // namespace
 
-TEST_CASE("pictures, partitions, hits, slices and points from C have the bits of C++") {
+TEST_CASE("pictures, partitions, hits, slices and points from C have the bits of C++", "[promise:c]") {
     std::vector<std::pair<std::string, std::vector<const char*>>> files;
     for (const std::string& file : scene_files()) files.emplace_back(file, std::vector<const char*>{});
     if (const std::string models = folder("CSGRT_BRLCAD"); !models.empty()) {
@@ -343,7 +343,8 @@ TEST_CASE("pictures, partitions, hits, slices and points from C have the bits of
 }
 
 // Each edit is written as a line of Python, too, which its interpreter runs.
-TEST_CASE("after 100 edits C++, C, librt's shape, the command and Python have the same bits", "[.interfaces]") {
+TEST_CASE("after 100 edits C++, C, librt's shape, the command and Python have the same bits",
+          "[.interfaces][promise:c]") {
     OwnedScene c_scene, parts, edited;
     OwnedModel c_model;
     OwnedRenderer c_renderer;
@@ -487,7 +488,7 @@ TEST_CASE("after 100 edits C++, C, librt's shape, the command and Python have th
     require_same_pictures(c_scene, latest, c_renderer, renderer, scene.camera);
 }
 
-TEST_CASE("batches from C are those of a grid, and may be ended") {
+TEST_CASE("batches from C are those of a grid, and may be ended", "[promise:c]") {
     OwnedScene scene;
     OwnedModel model;
     OwnedRenderer renderer;

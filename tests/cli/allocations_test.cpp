@@ -3,17 +3,18 @@
 
 using namespace command_test;
 
-TEST_CASE("an allocation that fails ends the command with status 5 or changes nothing, and the old file stays") {
+TEST_CASE("an allocation that fails ends the command with status 5 or changes nothing, and the old file stays",
+          "[promise:failures]") {
     NEEDS_COMMAND();
     fail_each("CSGRT_FAIL_NEW", 50, false, {5});
 }
 
-TEST_CASE("each allocation that fails ends the command with status 5 or changes nothing", "[.long]") {
+TEST_CASE("each allocation that fails ends the command with status 5 or changes nothing", "[.long][promise:failures]") {
     NEEDS_COMMAND();
     fail_each("CSGRT_FAIL_NEW", 1, false, {5});
 }
 
-TEST_CASE("memory that ends in PoCL ends the command with status 5 or 7, or changes nothing") {
+TEST_CASE("memory that ends in PoCL ends the command with status 5 or 7, or changes nothing", "[promise:failures]") {
     NEEDS_COMMAND();
     const char* const library = std::getenv("CSGRT_FAIL_LIBRARY");
     if (library == nullptr || !contains(run({"devices"}).out, "Portable Computing Language")) {
@@ -54,13 +55,14 @@ TEST_CASE("memory that ends in PoCL ends the command with status 5 or 7, or chan
 
 #ifdef CSGRT_HAVE_IMAGE
 // 6: what OpenImageIO says of it need not be that.
-TEST_CASE("an allocation that fails where pictures are read or written is an error or changes nothing") {
+TEST_CASE("an allocation that fails where pictures are read or written is an error or changes nothing",
+          "[promise:failures]") {
     NEEDS_COMMAND();
     fail_each("CSGRT_FAIL_NEW", 1000, true, {5, 6});
 }
 
 TEST_CASE("every tenth allocation that fails where pictures are read or written is an error or changes nothing",
-          "[.long]") {
+          "[.long][promise:failures]") {
     NEEDS_COMMAND();
     fail_each("CSGRT_FAIL_NEW", 10, true, {5, 6});
 }

@@ -72,7 +72,7 @@ TEST_CASE("bounds, planes and grids") {
     }
 }
 
-TEST_CASE("numbers are written so that they read back") {
+TEST_CASE("numbers are written so that they read back", "[promise:shoot]") {
     std::string text;
     append_number(text, 0.1);
     CHECK(text == "0.10000000000000001");
@@ -84,7 +84,7 @@ TEST_CASE("numbers are written so that they read back") {
     CHECK(text == "-inf");
 }
 
-TEST_CASE("names are one word") {
+TEST_CASE("names are one word", "[promise:shoot]") {
     std::string text;
     append_name(text, "a b\\c\td");
     CHECK(text == "a\\040b\\134c\\011d");

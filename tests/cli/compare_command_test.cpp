@@ -28,7 +28,7 @@ std::string changed(std::string text, const std::string& from, const std::string
 
 }  // namespace
 
-TEST_CASE("files of partitions are compared bit by bit, or within a tolerance") {
+TEST_CASE("files of partitions are compared bit by bit, or within a tolerance", "[promise:command]") {
     NEEDS_COMMAND();
     const Folder folder;
     const std::string a = folder.write("a.txt", partitions);
@@ -69,7 +69,7 @@ TEST_CASE("files of partitions are compared bit by bit, or within a tolerance") 
     }
 }
 
-TEST_CASE("what shoot writes compares equal with itself") {
+TEST_CASE("what shoot writes compares equal with itself", "[promise:command]") {
     NEEDS_COMMAND();
     const Folder folder;
     const std::string scene = folder.write("balls.asc", two_balls);
@@ -112,7 +112,7 @@ TEST_CASE("files that are neither pictures nor partitions are refused with their
 
 #ifdef CSGRT_HAVE_IMAGE
 
-TEST_CASE("pictures are compared channel by channel") {
+TEST_CASE("pictures are compared channel by channel", "[promise:command]") {
     NEEDS_COMMAND();
     const Folder folder;
     csgrt::Image image;
@@ -156,7 +156,7 @@ TEST_CASE("pictures are compared channel by channel") {
     CHECK(run({"compare", a, b, "--tolerance", "0"}).status == 0);
 }
 
-TEST_CASE("pictures of other size or channels differ") {
+TEST_CASE("pictures of other size or channels differ", "[promise:command]") {
     NEEDS_COMMAND();
     const Folder folder;
     const std::string scene = folder.write("balls.asc", two_balls);

@@ -84,7 +84,7 @@ const Kind kinds[] = {
 
 }  // namespace
 
-TEST_CASE("fifty errors are told, and how many more there are") {
+TEST_CASE("fifty errors are told, and how many more there are", "[promise:refusals]") {
     NEEDS_COMMAND();
     const Folder folder;
     const std::string good = folder.write("balls.asc", two_balls);

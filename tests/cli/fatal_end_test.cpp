@@ -41,7 +41,8 @@ void check_ends_in_time(const std::vector<std::string>& words, const Variables& 
 
 }  // namespace
 
-TEST_CASE("a driver that ends the process is status 7 with what to remove, and a note among the devices") {
+TEST_CASE("a driver that ends the process is status 7 with what to remove, and a note among the devices",
+          "[promise:failures]") {
     NEEDS_COMMAND();
     const Folder folder, vendors;
     const std::string scene = folder.write("balls.asc", two_balls);
@@ -62,7 +63,8 @@ TEST_CASE("a driver that ends the process is status 7 with what to remove, and a
     }
 }
 
-TEST_CASE("a driver that never comes back: one TERM ends the command within 5 seconds, two within 2") {
+TEST_CASE("a driver that never comes back: one TERM ends the command within 5 seconds, two within 2",
+          "[promise:interrupts][promise:failures]") {
     NEEDS_COMMAND();
     const Folder folder, vendors;
     const auto environment = with_driver(vendors, "hang");
@@ -74,7 +76,8 @@ TEST_CASE("a driver that never comes back: one TERM ends the command within 5 se
 }
 
 #ifdef CSGRT_HAVE_IMAGE
-TEST_CASE("a library for pictures that ends the process is status 6, and one that never comes back can be ended") {
+TEST_CASE("a library for pictures that ends the process is status 6, and one that never comes back can be ended",
+          "[promise:failures]") {
     NEEDS_COMMAND();
     const char* const bad = std::getenv("CSGRT_BAD_DRIVER");
     if (bad == nullptr) return;

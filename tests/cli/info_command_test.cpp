@@ -65,7 +65,7 @@ TEST_CASE("info shows the tree of a scene that cannot be rendered, and says why 
     CHECK(run({"info", folder / "absent.asc"}).status == 6);
 }
 
-TEST_CASE("info writes the model as JSON") {
+TEST_CASE("info writes the model as JSON", "[promise:command]") {
     NEEDS_COMMAND();
     const Folder folder;
     const std::string scene =
@@ -107,7 +107,7 @@ TEST_CASE("info writes the model as JSON") {
     CHECK(nothing["warnings"].size() >= 1);
 }
 
-TEST_CASE("convert writes a scene that renders the same") {
+TEST_CASE("convert writes a scene that renders the same", "[promise:round-trip]") {
     NEEDS_COMMAND();
     const Folder folder;
     const std::string scene = folder.write("balls.asc", two_balls), json = folder / "balls.json";

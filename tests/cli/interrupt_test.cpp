@@ -115,7 +115,8 @@ TEST_CASE("no picture is written to a terminal") {
 }
 #endif
 
-TEST_CASE("SIGINT, SIGTERM and SIGHUP end a render, a wait for rays and a verification with 130, and leave no file") {
+TEST_CASE("SIGINT, SIGTERM and SIGHUP end a render, a wait for rays and a verification with 130, and leave no file",
+          "[promise:interrupts]") {
     NEEDS_COMMAND();
     for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
         const Folder folder;

@@ -95,7 +95,8 @@ TEST_CASE("a command that is ended at any time leaves the old file or the new on
     end_at_random_times(csgrt::test::tries(9));
 }
 
-TEST_CASE("200 commands that are ended at any time leave the old file or the new one, whole", "[.long]") {
+TEST_CASE("200 commands that are ended at any time leave the old file or the new one, whole",
+          "[.long][promise:files]") {
     NEEDS_COMMAND();
     end_at_random_times(200);
 }

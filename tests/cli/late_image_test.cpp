@@ -13,7 +13,7 @@ std::vector<std::string> drawing(const std::string& scene, const std::string& pi
 
 }  // namespace
 
-TEST_CASE("a command that ends while the library for pictures is loaded ends as without it") {
+TEST_CASE("a command that ends while the library for pictures is loaded ends as without it", "[promise:failures]") {
     NEEDS_COMMAND();
     const Folder folder;
     const std::string scene = folder.write("broken.json", "{\"csgrt\": 1,\n \"sloids\": {}}"),
@@ -29,7 +29,8 @@ TEST_CASE("a command that ends while the library for pictures is loaded ends as 
     CHECK(run({scene, "-o", "x.bmp"}).status == 2);
 }
 
-TEST_CASE("a library for pictures that cannot be loaded is an error where the picture is written") {
+TEST_CASE("a library for pictures that cannot be loaded is an error where the picture is written",
+          "[promise:failures]") {
     NEEDS_COMMAND();
     const Folder folder, libraries;
     const std::string scene = folder.write("balls.asc", two_balls), picture = folder / "x.png";
@@ -48,7 +49,8 @@ TEST_CASE("a library for pictures that cannot be loaded is an error where the pi
     CHECK(run({"info", scene}, how).status == 0);
 }
 
-TEST_CASE("a library for pictures that takes long is waited for, and the wait can be interrupted") {
+TEST_CASE("a library for pictures that takes long is waited for, and the wait can be interrupted",
+          "[promise:failures]") {
     NEEDS_COMMAND();
     const char* const library = std::getenv("CSGRT_FAIL_LIBRARY");
     if (library == nullptr) return;
@@ -78,7 +80,7 @@ TEST_CASE("a library for pictures that takes long is waited for, and the wait ca
     CHECK(read_file(picture) != "old");
 }
 
-TEST_CASE("the libraries that the one for pictures needs are loaded one by one") {
+TEST_CASE("the libraries that the one for pictures needs are loaded one by one", "[promise:failures]") {
     NEEDS_COMMAND();
     const Folder folder;
     const std::string scene = folder.write("balls.asc", two_balls), log = folder / "log";

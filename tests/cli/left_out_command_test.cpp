@@ -29,7 +29,7 @@ std::string partitions_only(const std::string& text) {
 
 }  // namespace
 
-TEST_CASE("a database is drawn without its unknown solids, unless it must be strict") {
+TEST_CASE("a database is drawn without its unknown solids, unless it must be strict", "[promise:databases]") {
     NEEDS_COMMAND();
     const Folder folder;
     const std::string scene = folder.write("odd.asc", odd),
@@ -67,7 +67,7 @@ TEST_CASE("a database is drawn without its unknown solids, unless it must be str
     CHECK(contains(info.out, "odd.s: left out: a brep"));
 }
 
-TEST_CASE("a scene in JSON with an unknown solid is refused, unless it may be skipped") {
+TEST_CASE("a scene in JSON with an unknown solid is refused, unless it may be skipped", "[promise:databases]") {
     NEEDS_COMMAND();
     const Folder folder;
     const std::string database = folder.write("odd.asc", odd), scene = folder / "odd.json";
@@ -80,7 +80,8 @@ TEST_CASE("a scene in JSON with an unknown solid is refused, unless it may be sk
     CHECK(contains(skipped.out, "odd.s: left out: a brep"));
 }
 
-TEST_CASE("info lists every broken object of a database, and what is sound, even if nothing is") {
+TEST_CASE("info lists every broken object of a database, and what is sound, even if nothing is",
+          "[promise:databases]") {
     NEEDS_COMMAND();
     const Folder folder;
     const std::string broken = std::string(two_balls) +
@@ -102,7 +103,7 @@ TEST_CASE("info lists every broken object of a database, and what is sound, even
     CHECK(run({"info", folder.write("cut.asc", broken + "put open.s ell V {0 0 0")}).status == 3);
 }
 
-TEST_CASE("thousands of warnings are counted, not all printed or kept in the picture") {
+TEST_CASE("thousands of warnings are counted, not all printed or kept in the picture", "[promise:databases]") {
     NEEDS_COMMAND();
     const Folder folder;
     std::string many = std::string(two_balls) + "put many.r comb region yes tree ";

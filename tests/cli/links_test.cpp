@@ -26,7 +26,7 @@ std::vector<std::vector<std::string>> writers(const Folder& folder) {
 
 }  // namespace
 
-TEST_CASE("every output through a link, or links to links, writes the target and keeps the links") {
+TEST_CASE("every output through a link, or links to links, writes the target and keeps the links", "[promise:files]") {
     NEEDS_COMMAND();
     const Folder folder;
     fs::create_directory(folder / "a");
@@ -107,7 +107,7 @@ TEST_CASE("devices, pipes and open files are written into") {
 #endif
 }
 
-TEST_CASE("where there is no room the old file stays, and nothing beside it") {
+TEST_CASE("where there is no room the old file stays, and nothing beside it", "[promise:files]") {
     NEEDS_COMMAND();
     const Folder folder;
     for (std::vector<std::string> words : writers(folder)) {

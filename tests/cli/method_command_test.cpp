@@ -5,7 +5,7 @@
 
 using namespace command_test;
 
-TEST_CASE("--stats and the picture say how it was computed") {
+TEST_CASE("--stats and the picture say how it was computed", "[promise:command]") {
     NEEDS_COMMAND();
     const Folder folder;
     const std::string scene = folder.write("balls.asc", two_balls);

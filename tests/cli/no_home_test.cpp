@@ -14,7 +14,7 @@ How at_home(const std::string& home, const std::string& temporary) {
 
 }  // namespace
 
-TEST_CASE("a home that cannot be written gives a temporary cache, which is gone afterwards") {
+TEST_CASE("a home that cannot be written gives a temporary cache, which is gone afterwards", "[promise:process]") {
     NEEDS_COMMAND();
     const Folder folder, temporary;
     const std::string scene = folder.write("balls.asc", two_balls), rays = folder.write("rays", "-100 0.1 0.2 1 0 0\n");

@@ -9,7 +9,7 @@
 
 using namespace command_test;
 
-TEST_CASE("an EXR names the regions and solids that occur in it, and no others") {
+TEST_CASE("an EXR names the regions and solids that occur in it, and no others", "[promise:pictures]") {
     NEEDS_COMMAND();
     const Folder folder;
     // 3,000 balls far apart; the view sees a few.

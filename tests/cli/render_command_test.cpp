@@ -68,7 +68,7 @@ TEST_CASE("--stats holds the promised keys in their order") {
     CHECK(folder.files().size() == 2);
 }
 
-TEST_CASE("scenes that cannot be rendered say where they are wrong") {
+TEST_CASE("scenes that cannot be rendered say where they are wrong", "[promise:command]") {
     NEEDS_COMMAND();
     const Folder folder;
     const std::string scene = folder.write("balls.asc", two_balls);
@@ -92,7 +92,7 @@ TEST_CASE("scenes that cannot be rendered say where they are wrong") {
     CHECK(absent.out.empty());
 }
 
-TEST_CASE("outputs that cannot be written are found before the scene is even read") {
+TEST_CASE("outputs that cannot be written are found before the scene is even read", "[promise:command]") {
     NEEDS_COMMAND();
     const Folder folder;
     const std::string scene = folder.write("balls.asc", two_balls), absent = folder / "absent.asc";
@@ -139,7 +139,7 @@ TEST_CASE("a device keeps being a device, a link a link") {
     CHECK(read_file(file).starts_with("{"));
 }
 
-TEST_CASE("a device that is not there exits with 4") {
+TEST_CASE("a device that is not there exits with 4", "[promise:command]") {
     NEEDS_COMMAND();
     const Folder folder;
     const std::string scene = folder.write("balls.asc", two_balls);
@@ -151,7 +151,7 @@ TEST_CASE("a device that is not there exits with 4") {
     }
 }
 
-TEST_CASE("too little device memory exits with 5") {
+TEST_CASE("too little device memory exits with 5", "[promise:command][promise:failures]") {
     NEEDS_COMMAND();
     if (!have_device()) return;
     const Folder folder;
@@ -163,7 +163,7 @@ TEST_CASE("too little device memory exits with 5") {
 }
 
 #ifndef CSGRT_SANITIZED  // these need the address space themselves
-TEST_CASE("too little host memory exits with 5") {
+TEST_CASE("too little host memory exits with 5", "[promise:command][promise:failures]") {
     NEEDS_COMMAND();
     const Folder folder;
     const std::string scene = folder.write("balls.asc", two_balls);
@@ -175,7 +175,7 @@ TEST_CASE("too little host memory exits with 5") {
 }
 #endif
 
-TEST_CASE("the listed devices are those of the library") {
+TEST_CASE("the listed devices are those of the library", "[promise:devices]") {
     NEEDS_COMMAND();
     if (!have_device()) return;
     const Result result = run({"devices"});
@@ -267,7 +267,7 @@ TEST_CASE("pictures that cannot be written are refused before the render") {
     CHECK(folder.files().size() == 1);
 }
 
-TEST_CASE("the options of the camera reach the picture") {
+TEST_CASE("the options of the camera reach the picture", "[promise:views]") {
     NEEDS_COMMAND();
     const Folder folder;
     const std::string scene = folder.write("balls.asc", two_balls);

@@ -27,7 +27,7 @@ std::vector<std::int32_t> list_of(const Numbers& numbers) {
 
 }  // namespace
 
-TEST_CASE("sample tells the region of each point") {
+TEST_CASE("sample tells the region of each point", "[promise:command][promise:lists]") {
     NEEDS_COMMAND();
     const Folder folder;
     const std::string scene = folder.write("balls.asc", two_balls);
@@ -57,7 +57,7 @@ TEST_CASE("lines that are no points are told with their place") {
         CHECK(contains(result.err, part));
 }
 
-TEST_CASE("sample shows a plane of the model") {
+TEST_CASE("sample shows a plane of the model", "[promise:command][promise:lists]") {
     NEEDS_COMMAND();
     const Folder folder;
     const std::string scene = folder.write("balls.asc", two_balls);

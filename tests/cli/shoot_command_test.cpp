@@ -17,7 +17,7 @@ constexpr const char* rays =
 
 }  // namespace
 
-TEST_CASE("shoot names the line and the limit of a ray that is out of range") {
+TEST_CASE("shoot names the line and the limit of a ray that is out of range", "[promise:shoot]") {
     NEEDS_COMMAND();
     const Folder folder;
     const std::string scene = folder.write("two balls.asc", two_balls);
@@ -31,7 +31,7 @@ TEST_CASE("shoot names the line and the limit of a ray that is out of range") {
     CHECK(contains(result.err, ":4:7: the largest component of its direction is 1e-260"));
 }
 
-TEST_CASE("shoot takes rays behind a byte order mark, and objects by the paths that it prints") {
+TEST_CASE("shoot takes rays behind a byte order mark, and objects by the paths that it prints", "[promise:shoot]") {
     NEEDS_COMMAND();
     const Folder folder;
     const std::string scene = folder.write("two balls.asc", std::string("\xEF\xBB\xBF") + two_balls);
@@ -45,7 +45,7 @@ TEST_CASE("shoot takes rays behind a byte order mark, and objects by the paths t
     CHECK(contains(wrong.err, "'all.g' has no member 'lefd.r' (in the path 'all.g/lefd.r')\n  did you mean 'left.r'?"));
 }
 
-TEST_CASE("shoot prints the partitions along each ray") {
+TEST_CASE("shoot prints the partitions along each ray", "[promise:shoot]") {
     NEEDS_COMMAND();
     const Folder folder;
     const std::string scene = folder.write("two balls.asc", two_balls), file = folder.write("rays", rays);
@@ -101,7 +101,8 @@ TEST_CASE("shoot prints the partitions along each ray") {
     CHECK(line.starts_with("ray 2 "));
 }
 
-TEST_CASE("rays from a pipe and from a file give the same partitions, in a file and on standard output") {
+TEST_CASE("rays from a pipe and from a file give the same partitions, in a file and on standard output",
+          "[promise:shoot]") {
     NEEDS_COMMAND();
     const Folder folder;
     const std::string scene = folder.write("balls.asc", two_balls), file = folder.write("rays", rays);
@@ -115,7 +116,7 @@ TEST_CASE("rays from a pipe and from a file give the same partitions, in a file 
     CHECK(folder.files().size() == 3);
 }
 
-TEST_CASE("more rays than one chunk keep their numbers") {
+TEST_CASE("more rays than one chunk keep their numbers", "[promise:shoot]") {
     NEEDS_COMMAND();
     const Folder folder;
     const std::string scene = folder.write("balls.asc", two_balls);
@@ -128,7 +129,8 @@ TEST_CASE("more rays than one chunk keep their numbers") {
     CHECK(std::count(result.out.begin(), result.out.end(), '\n') == 3 + 70'000 + 2);
 }
 
-TEST_CASE("lines that are no rays are told with their place, all of them, and nothing is shot") {
+TEST_CASE("lines that are no rays are told with their place, all of them, and nothing is shot",
+          "[promise:shoot][promise:untrusted]") {
     NEEDS_COMMAND();
     const Folder folder;
     const std::string scene = folder.write("balls.asc", two_balls);
@@ -155,7 +157,7 @@ TEST_CASE("lines that are no rays are told with their place, all of them, and no
     CHECK(contains(stream.err, "standard input:2:10: dz is missing"));
 }
 
-TEST_CASE("files of rays that cannot be read, and outputs that cannot be written") {
+TEST_CASE("files of rays that cannot be read, and outputs that cannot be written", "[promise:shoot]") {
     NEEDS_COMMAND();
     const Folder folder;
     const std::string scene = folder.write("balls.asc", two_balls), file = folder.write("rays", rays);

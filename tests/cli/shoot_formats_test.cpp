@@ -33,7 +33,7 @@ std::string written(const Folder& folder, std::vector<std::string> words, const 
 
 }  // namespace
 
-TEST_CASE("shoot writes CSV with nirt's columns, a line a partition") {
+TEST_CASE("shoot writes CSV with nirt's columns, a line a partition", "[promise:shoot]") {
     NEEDS_COMMAND();
     const Folder folder;
     const std::string scene = folder.write("balls.asc", two_balls);
@@ -97,7 +97,7 @@ TEST_CASE("npy is a header and the records of binary") {
     CHECK(npy.substr(header) == binary);
 }
 
-TEST_CASE("a range cuts the text's partitions and overlaps, and a cut end has no solid") {
+TEST_CASE("a range cuts the text's partitions and overlaps, and a cut end has no solid", "[promise:shoot]") {
     NEEDS_COMMAND();
     const Folder folder;
     const std::string scene = folder.write("balls.asc", two_balls);
@@ -121,7 +121,7 @@ TEST_CASE("a range cuts the text's partitions and overlaps, and a cut end has no
     CHECK(contains(wrong.err, "--far: the range is from 0 to -1\n  --near must not be above --far"));
 }
 
-TEST_CASE("a grid is the same as its rays in a file, in any format") {
+TEST_CASE("a grid is the same as its rays in a file, in any format", "[promise:shoot]") {
     NEEDS_COMMAND();
     const Folder folder;
     const std::string scene = folder.write("balls.asc", two_balls);

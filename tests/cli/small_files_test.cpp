@@ -69,7 +69,7 @@ void check(const std::vector<std::string>& words, int status, const std::string&
 
 }  // namespace
 
-TEST_CASE("small files of nine kinds cost little, or are refused") {
+TEST_CASE("small files of nine kinds cost little, or are refused", "[promise:untrusted][promise:limits]") {
     NEEDS_COMMAND();
     if (csgrt::test::sanitized) return;  // they cost the sanitizer minutes
     const Folder folder;
@@ -152,7 +152,7 @@ TEST_CASE("small files of nine kinds cost little, or are refused") {
           "and 299950 more errors");
 }
 
-TEST_CASE("a scene runs no program") {
+TEST_CASE("a scene runs no program", "[promise:untrusted]") {
     NEEDS_COMMAND();
     const Folder folder;
     const std::string made = folder / "made";

@@ -15,7 +15,7 @@ std::string after_name(const std::string& text) { return text.substr(text.find('
 
 }  // namespace
 
-TEST_CASE("a scene comes from standard input, its format told by its first bytes") {
+TEST_CASE("a scene comes from standard input, its format told by its first bytes", "[promise:command]") {
     NEEDS_COMMAND();
     const Folder folder;
     const std::string asc = folder.write("balls.asc", two_balls), json = folder / "balls.json";
@@ -58,7 +58,8 @@ TEST_CASE("errors of a scene on standard input name it, with line and column") {
     CHECK(contains(run({"info", "-"}, {.input = folder.write("scene", "\x1f\x8b packed")}).err, "gunzip"));
 }
 
-TEST_CASE("files of a scene on standard input are relative to the present folder, which must be allowed") {
+TEST_CASE("files of a scene on standard input are relative to the present folder, which must be allowed",
+          "[promise:untrusted]") {
     const Folder folder;
     const std::string text =
         "units mm\nput d.s dsp src f file heights w 2 n 2 sm 0 cut a stom {1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1}\n";
@@ -76,7 +77,7 @@ TEST_CASE("files of a scene on standard input are relative to the present folder
     CHECK(std::holds_alternative<csgrt::Dsp>(std::get<csgrt::Solid>(allowed.objects[0]).shape));
 }
 
-TEST_CASE("a scene names files below its own folder, and below those of --allow-files") {
+TEST_CASE("a scene names files below its own folder, and below those of --allow-files", "[promise:untrusted]") {
     NEEDS_COMMAND();
     const Folder folder;
     for (const char* name : {"models", "models/inside", "cells", "cells2"}) fs::create_directory(folder / name);
@@ -153,7 +154,7 @@ TEST_CASE("a scene names files below its own folder, and below those of --allow-
     CHECK(!is_read(run({"info", "/dev/stdin"}, {.input = folder / "models/m.asc"}).out));
 }
 
-TEST_CASE("scene and rays cannot both be standard input") {
+TEST_CASE("scene and rays cannot both be standard input", "[promise:shoot]") {
     NEEDS_COMMAND();
     for (const char* command : {"shoot", "verify"}) {
         const Result result = run({command, "-", "--rays", "-", "--reference"});

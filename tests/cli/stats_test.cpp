@@ -4,7 +4,7 @@
 
 using csgrt::Statistics;
 
-TEST_CASE("medians leave out the first of several frames, and counts are the last frame's") {
+TEST_CASE("medians leave out the first of several frames, and counts are the last frame's", "[promise:command]") {
     std::vector<Statistics> frames;
     for (double time : {100.0, 3.0, 1.0, 2.0}) {
         Statistics& frame = frames.emplace_back();

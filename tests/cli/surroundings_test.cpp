@@ -65,7 +65,8 @@ std::vector<Surroundings> all_surroundings(const Folder& folder) {
 
 }  // namespace
 
-TEST_CASE("in any surroundings a command gives its answer, or says with the right status what it lacks") {
+TEST_CASE("in any surroundings a command gives its answer, or says with the right status what it lacks",
+          "[promise:failures]") {
     NEEDS_COMMAND();
     const Folder folder;
     const std::string scene = folder.write("balls.asc", two_balls), rays = folder.write("rays", "-100 0.1 0.2 1 0 0\n"),

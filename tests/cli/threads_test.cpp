@@ -3,7 +3,7 @@
 
 using namespace command_test;
 
-TEST_CASE("a thread that is not to be had changes no answer, or the command says what it lacks") {
+TEST_CASE("a thread that is not to be had changes no answer, or the command says what it lacks", "[promise:failures]") {
     NEEDS_COMMAND();
     fail_each("CSGRT_FAIL_THREAD", 1, false, {5, 6, 7});
 #ifdef CSGRT_HAVE_IMAGE
@@ -13,7 +13,7 @@ TEST_CASE("a thread that is not to be had changes no answer, or the command says
 
 #ifdef CSGRT_HAVE_IMAGE
 TEST_CASE("threads that libraries do not get while they are loaded: the right answer, or what is lacking is said",
-          "[.long]") {
+          "[.long][promise:failures]") {
     NEEDS_COMMAND();
     setenv("CSGRT_FAIL_THREAD_LOADS", "1", 1);
     fail_each("CSGRT_FAIL_THREAD", 1, true, {5, 6, 7, 130});
@@ -21,7 +21,7 @@ TEST_CASE("threads that libraries do not get while they are loaded: the right an
 }
 #endif
 
-TEST_CASE("a thread that PoCL does not get is the answer or status 7, and a sentence") {
+TEST_CASE("a thread that PoCL does not get is the answer or status 7, and a sentence", "[promise:failures]") {
     NEEDS_COMMAND();
     const char* library = std::getenv("CSGRT_FAIL_LIBRARY");
     if (library == nullptr || !contains(run({"devices"}).out, "Portable Computing Language")) {

@@ -87,7 +87,7 @@ TEST_CASE("a wrong command line is refused with what is wrong") {
     }
 }
 
-TEST_CASE("a wrong command line exits with 2, and nothing is on standard output") {
+TEST_CASE("a wrong command line exits with 2, and nothing is on standard output", "[promise:command]") {
     NEEDS_COMMAND();
     const Folder folder;
     const std::string scene = folder.write("balls.asc", two_balls);

@@ -41,7 +41,7 @@ std::string value(const std::string& table, const std::string& name) {
 
 }  // namespace
 
-TEST_CASE("a scene that the device computes right is verified") {
+TEST_CASE("a scene that the device computes right is verified", "[promise:verify]") {
     NEEDS_COMMAND();
     const Folder folder;
     const Result result = run({"verify", folder.write("balls.asc", two_balls), "all.g", "--rays", "500"});
@@ -57,7 +57,7 @@ TEST_CASE("a scene that the device computes right is verified") {
     CHECK(contains(value(result.out, "most ulps"), "/all.g/"));
 }
 
-TEST_CASE("wrong regions are found, and the ray that is printed shows them") {
+TEST_CASE("wrong regions are found, and the ray that is printed shows them", "[promise:verify]") {
     NEEDS_COMMAND();
     const Folder folder;
     const std::string scene = folder.write("ball.asc", ball);
@@ -97,7 +97,7 @@ TEST_CASE("a ring is right on rays from far away") {
     CHECK(run({"verify", scene, "--reference", "--rays", rays}).status == 0);
 }
 
-TEST_CASE("a ray along a face is a tie, and named") {
+TEST_CASE("a ray along a face is a tie, and named", "[promise:verify]") {
     NEEDS_COMMAND();
     const Folder folder;
     const std::string scene = folder.write("balls.asc", two_balls);

@@ -11,7 +11,7 @@ const char* const script = "viewsize 40;\norientation 0.5 0.5 0.5 0.5;\neye_pt 1
 
 }  // namespace
 
-TEST_CASE("options that say a view twice are refused") {
+TEST_CASE("options that say a view twice are refused", "[promise:views]") {
     NEEDS_COMMAND();
     const Folder folder;
     const std::string scene = folder.write("balls.asc", two_balls), view = folder.write("view.rt", script);

@@ -52,7 +52,7 @@ TEST_CASE("help says the units of each command, and one example of a picture and
     }
 }
 
-TEST_CASE("the answer in docs/shoot.md is what shoot answers to its ray and scene") {
+TEST_CASE("the answer in docs/shoot.md is what shoot answers to its ray and scene", "[promise:shoot]") {
     NEEDS_COMMAND();
     const char* scenes = std::getenv("CSGRT_SCENES");
     const std::string page = scenes ? read_file((fs::path(scenes) / "../docs/shoot.md").string()) : "";
@@ -84,7 +84,7 @@ TEST_CASE("the answer in docs/shoot.md is what shoot answers to its ray and scen
     CHECK(!std::getline(answer, line));
 }
 
-TEST_CASE("bounds are told in words where there are none") {
+TEST_CASE("bounds are told in words where there are none", "[promise:shoot]") {
     NEEDS_COMMAND();
     const Folder folder;
     struct Case {
@@ -109,7 +109,7 @@ TEST_CASE("bounds are told in words where there are none") {
     }
 }
 
-TEST_CASE("whatever is misspelt gets the nearest name") {
+TEST_CASE("whatever is misspelt gets the nearest name", "[promise:refusals]") {
     NEEDS_COMMAND();
     const Folder folder;
     const std::string scene = folder.write("balls.asc", two_balls), rays = folder.write("rays", "0 0 -9 0 0 1\n");
@@ -131,7 +131,7 @@ TEST_CASE("whatever is misspelt gets the nearest name") {
     }
 }
 
-TEST_CASE("a number too small is 0 and one too large an error, in every reader in the same words") {
+TEST_CASE("a number too small is 0 and one too large an error, in every reader in the same words", "[promise:shoot]") {
     NEEDS_COMMAND();
     const Folder folder;
     const std::string scene = folder.write("ball.json", scene_of(ball));

@@ -83,7 +83,7 @@ bool has_brlcad_box(const Shape& shape) {
 
 }  // namespace
 
-TEST_CASE("BRL-CAD's models flatten to the solids, regions and boxes that it finds itself") {
+TEST_CASE("BRL-CAD's models flatten to the solids, regions and boxes that it finds itself", "[promise:brlcad]") {
     const std::string truths = test::folder("CSGRT_TRUTH"), models = test::folder("CSGRT_BRLCAD");
     if (truths.empty() || models.empty()) {
         WARN("CSGRT_TRUTH and CSGRT_BRLCAD name no folders: skipped");

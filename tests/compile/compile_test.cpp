@@ -163,7 +163,7 @@ TEST_CASE("nothing to render is an error that says why") {
     CHECK(test::texts(c.warnings) == std::vector<std::string>{"1 region without solids left out: /hollow"});
 }
 
-TEST_CASE("what validation finds is thrown with every finding") {
+TEST_CASE("what validation finds is thrown with every finding", "[promise:refusals]") {
     Scene s = plate_with_hole();
     std::get<Combination>(s.objects[4]).tree.nodes[0].object = "plat";
     std::get<Combination>(s.objects[5]).tree.nodes[0].object = "knop";

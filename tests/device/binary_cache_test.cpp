@@ -106,7 +106,7 @@ private:
 
 }  // namespace
 
-TEST_CASE("binaries: what was kept under a key is found under it, and under no other", "[device]") {
+TEST_CASE("binaries: what was kept under a key is found under it, and under no other", "[device][promise:devices]") {
     const Folder folder;
     const BinaryCache cache(folder.path() / "made" / "with it");
     CHECK_FALSE(cache.find("key"));
@@ -159,7 +159,7 @@ TEST_CASE("binaries: a file that was cut off, altered or is another key's counts
     CHECK_FALSE(cache.find("key"));
 }
 
-TEST_CASE("binaries: where nothing can be written nothing is kept, and that is no error", "[device]") {
+TEST_CASE("binaries: where nothing can be written nothing is kept, and that is no error", "[device][promise:devices]") {
     const Folder folder;
     write(folder.path(), "a file, no folder");
     const fs::path file = folder.path();
@@ -185,7 +185,8 @@ TEST_CASE("binaries: what is no regular file is left alone, and waits for nobody
     CHECK(fs::is_fifo(name));
 }
 
-TEST_CASE("binaries: the longest unused go when there are too many, and nobody else's files", "[device]") {
+TEST_CASE("binaries: the longest unused go when there are too many, and nobody else's files",
+          "[device][promise:devices]") {
     const Folder folder;
     const BinaryCache all(folder.path());
     const std::string binary(10'000, 'x');
@@ -281,7 +282,8 @@ TEST_CASE("binaries: drivers that keep their own, and native devices, have no ca
     }
 }
 
-TEST_CASE("a program comes from the cache with the same source and options, and from no damaged file", "[device]") {
+TEST_CASE("a program comes from the cache with the same source and options, and from no damaged file",
+          "[device][promise:devices]") {
     const Folder folder;
     const ForcedCache forced(folder.path());
     Device device(test::compiling_device());
@@ -316,7 +318,8 @@ TEST_CASE("a program comes from the cache with the same source and options, and 
     CHECK(result("NUMBER=8", true) == 8);
 }
 
-TEST_CASE("pictures and partitions of programs from the cache have the bits of those that were compiled", "[device]") {
+TEST_CASE("pictures and partitions of programs from the cache have the bits of those that were compiled",
+          "[device][promise:devices]") {
     const std::string scenes = test::folder("CSGRT_SCENES");
     if (scenes.empty() || test::sanitized) return;  // the driver compiles most of the time
     const Folder folder;

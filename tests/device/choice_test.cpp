@@ -32,7 +32,7 @@ std::string refusal(const std::vector<DeviceInfo>& devices, const std::string& c
 
 }  // namespace
 
-TEST_CASE("a device is chosen by nothing, type, number or part of a name", "[device]") {
+TEST_CASE("a device is chosen by nothing, type, number or part of a name", "[device][promise:devices]") {
     CHECK(choose_device(several, "") == 2);  // a GPU, and one with double precision
     CHECK(choose_device(several, "cpu") == 0);
     CHECK(choose_device(several, "gpu") == 2);
@@ -65,7 +65,7 @@ TEST_CASE("a device that is not there is refused with a list of those that are",
     CHECK(refusal(several, "accelerator").starts_with("no device of the type accelerator was found\n"));
 }
 
-TEST_CASE("a device without double precision is refused for that", "[device]") {
+TEST_CASE("a device without double precision is refused for that", "[device][promise:devices]") {
     CHECK(refusal(several, "1").starts_with("device 1 has no double precision\n"));
     CHECK(refusal(several, "toy").starts_with("no device has \"toy\" in its name and double precision\n"));
     CHECK(refusal({several[1]}, "gpu").starts_with("no device of the type gpu has double precision\n"));
@@ -94,7 +94,7 @@ TEST_CASE("every device describes itself", "[device]") {
     }
 }
 
-TEST_CASE("without a driver there are native devices alone, and that is no failure", "[.no_driver]") {
+TEST_CASE("without a driver there are native devices alone, and that is no failure", "[.no_driver][promise:devices]") {
     REQUIRE(setenv("POCL_CACHE_DIR", "/dev/null/none", 1) == 0);  // PoCL could not write there
     prepare_devices();
     std::vector<std::string> notes;
@@ -105,7 +105,8 @@ TEST_CASE("without a driver there are native devices alone, and that is no failu
           std::string("/dev/null/none"));  // the environment is the program's, not the library's
 }
 
-TEST_CASE("native devices have double precision's kernels alone, and come before other processors", "[device]") {
+TEST_CASE("native devices have double precision's kernels alone, and come before other processors",
+          "[device][promise:devices]") {
     DeviceInfo native = made_up("native-level", "cpu", true);
     native.platform = "csgrt";
     const std::vector<DeviceInfo> all = {several[1], native, several[0]};
@@ -126,7 +127,7 @@ TEST_CASE("native devices have double precision's kernels alone, and come before
     CHECK(choose_device({native, several[0], pocl}, "pocl") == 2);
 }
 
-TEST_CASE("several devices are chosen by several choices, or as all GPUs", "[device]") {
+TEST_CASE("several devices are chosen by several choices, or as all GPUs", "[device][promise:devices]") {
     using Numbers = std::vector<std::size_t>;
     CHECK(choose_devices(several, "") == Numbers{2});
     CHECK(choose_devices(several, "other") == Numbers{3});

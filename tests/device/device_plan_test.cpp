@@ -139,7 +139,7 @@ TEST_CASE("without native devices OpenCL draws by default, and the reference whe
     }
 }
 
-TEST_CASE("without any device the reference draws, and says so", "[.no_driver]") {
+TEST_CASE("without any device the reference draws, and says so", "[.no_driver][promise:devices]") {
     const NativeTable none(nullptr);
     const Scene scene = load_scene(test::folder("CSGRT_SCENES") + "/operators.json");
     const View view{.width = 24, .height = 16, .camera = scene.camera};

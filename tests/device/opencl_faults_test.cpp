@@ -217,15 +217,17 @@ void fail_asynchronously(bool every_code) {
 
 }  // namespace
 
-TEST_CASE("each call of OpenCL fails once: an error of the right status or the same bits, and nothing is left") {
+TEST_CASE("each call of OpenCL fails once: an error of the right status or the same bits, and nothing is left",
+          "[promise:failures]") {
     fail_on_native(false);
 }
 
-TEST_CASE("each call of a GPU's frame fails once: an error of the right status or the same bits, and nothing is left") {
+TEST_CASE("each call of a GPU's frame fails once: an error of the right status or the same bits, and nothing is left",
+          "[promise:failures]") {
     fail_asynchronously(false);
 }
 
-TEST_CASE("each call of OpenCL fails once with each error that it may have", "[.long]") {
+TEST_CASE("each call of OpenCL fails once with each error that it may have", "[.long][promise:failures]") {
     fail_on_native(true);
     fail_asynchronously(true);
 }

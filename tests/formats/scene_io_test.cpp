@@ -36,7 +36,7 @@ std::string content(const std::string& path) {
 
 }  // namespace
 
-TEST_CASE("scene io: what is saved loads to the same scene") {
+TEST_CASE("scene io: what is saved loads to the same scene", "[promise:round-trip]") {
     const Folder folder;
     const Scene scene = make_scene({ball("a", 0.1), combination("c", union_of({"a"}))});
     save_scene(scene, folder / "scene.JSON");
@@ -66,7 +66,7 @@ TEST_CASE("scene io: a name with a NUL is no shorter name") {
     CHECK(folder.files().size() == 1);
 }
 
-TEST_CASE("scene io: a file is replaced whole, or left alone") {
+TEST_CASE("scene io: a file is replaced whole, or left alone", "[promise:files]") {
     const Folder folder;
     const std::string path = folder / "scene.json";
     std::ofstream(path) << "before";

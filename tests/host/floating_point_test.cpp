@@ -101,13 +101,14 @@ void compare(const std::vector<std::string>& files, const std::string& who) {
 
 }  // namespace
 
-TEST_CASE("whatever the host's rounding, traps and tiny numbers, csgrt's bits are the same", "[device]") {
+TEST_CASE("whatever the host's rounding, traps and tiny numbers, csgrt's bits are the same",
+          "[device][promise:process]") {
     const std::string operators = test::folder("CSGRT_SCENES") + "/operators.json";
     for (const std::string who : {"native", "reference"}) compare(scene_files(), who);
     for (const std::string who : {"native", "reference", "pocl"}) compare({operators}, who);
 }
 
-TEST_CASE("a verification judges alike whatever the host's floating-point state", "[device]") {
+TEST_CASE("a verification judges alike whatever the host's floating-point state", "[device][promise:process]") {
     require_good("native", [&] {
         const Scene scene = small_scene();
         static_cast<void>(renderer_on(scene, on("native")));

@@ -29,7 +29,7 @@ void require_refusal(const Call& call) {
 
 }  // namespace
 
-TEST_CASE("after a fork a new Renderer works in the child, and the parent's goes on", "[device]") {
+TEST_CASE("after a fork a new Renderer works in the child, and the parent's goes on", "[device][promise:process]") {
     for (const std::string who : {"native", "reference"})
         require_good(who, [&] {
             const Scene scene = small_scene();
@@ -56,7 +56,8 @@ TEST_CASE("after a fork a new Renderer works in the child, and the parent's goes
         });
 }
 
-TEST_CASE("a Model that a child inherits answers as before, also what the parent has not asked yet", "[device]") {
+TEST_CASE("a Model that a child inherits answers as before, also what the parent has not asked yet",
+          "[device][promise:process]") {
     require_good("native", [] {
         const csgrt::Model asked(small_scene()), fresh(small_scene());
         const RayGrid rays = asked.grid_of(small_view());
@@ -76,7 +77,7 @@ TEST_CASE("a Model that a child inherits answers as before, also what the parent
     });
 }
 
-TEST_CASE("a Renderer that a child inherits refuses every call, and goes without a word", "[device]") {
+TEST_CASE("a Renderer that a child inherits refuses every call, and goes without a word", "[device][promise:process]") {
     for (const std::string who : {"native", "reference", "pocl"})
         require_good(who, [&] {
             const Scene scene = small_scene();
@@ -100,7 +101,7 @@ TEST_CASE("a Renderer that a child inherits refuses every call, and goes without
         });
 }
 
-TEST_CASE("a Verifier that a child inherits refuses to shoot, and goes without a word", "[device]") {
+TEST_CASE("a Verifier that a child inherits refuses to shoot, and goes without a word", "[device][promise:process]") {
     require_good("native", [&] {
         const Scene scene = small_scene();
         static_cast<void>(renderer_on(scene, on("native")));
@@ -115,7 +116,8 @@ TEST_CASE("a Verifier that a child inherits refuses to shoot, and goes without a
     });
 }
 
-TEST_CASE("OpenCL serves the process alone that uses it first, and its children have the others", "[device]") {
+TEST_CASE("OpenCL serves the process alone that uses it first, and its children have the others",
+          "[device][promise:process]") {
     require_good("pocl", [&] {
         const Scene scene = small_scene();
         REQUIRE(status_of([&] { renderer_on(scene, on("pocl")).render(small_view()); }) == 0);  // none is loaded here
@@ -133,7 +135,7 @@ TEST_CASE("OpenCL serves the process alone that uses it first, and its children 
     });
 }
 
-TEST_CASE("a child may draw into a Framebuffer that a driver of its parent's knows", "[device]") {
+TEST_CASE("a child may draw into a Framebuffer that a driver of its parent's knows", "[device][promise:process]") {
     require_good("pocl", [&] {
         const PretendedGpu gpu(pocl);  // its drivers register the memory
         const Scene scene = small_scene();

@@ -138,7 +138,8 @@ void end_while(unsigned microseconds, const Work& work) {
 
 }  // namespace
 
-TEST_CASE("csgrt's threads leave all signals to the host's, and so do a driver's that csgrt starts", "[device]") {
+TEST_CASE("csgrt's threads leave all signals to the host's, and so do a driver's that csgrt starts",
+          "[device][promise:process]") {
     for (const std::string who : {"native", "reference", "pocl"})
         require_good(who, [&] {
             Settings settings = on(who);
@@ -163,7 +164,7 @@ TEST_CASE("csgrt's threads leave all signals to the host's, and so do a driver's
     });
 }
 
-TEST_CASE("a Renderer that may use one thread starts none", "[device]") {
+TEST_CASE("a Renderer that may use one thread starts none", "[device][promise:process]") {
     for (const std::string who : {"native", "reference"})
         require_good(who, [&] {
             Settings settings = on(who);
@@ -177,7 +178,7 @@ TEST_CASE("a Renderer that may use one thread starts none", "[device]") {
         });
 }
 
-TEST_CASE("csgrt changes no handler of a signal, and no thread's signals", "[device]") {
+TEST_CASE("csgrt changes no handler of a signal, and no thread's signals", "[device][promise:process]") {
     for (const std::string who : {"native", "reference"})
         require_good(who, [&] {
             const std::vector<struct sigaction> before = handlers();
@@ -196,7 +197,8 @@ TEST_CASE("csgrt changes no handler of a signal, and no thread's signals", "[dev
         });
 }
 
-TEST_CASE("a host's handlers get their signals after PoCL's compiler has put its own before them", "[device]") {
+TEST_CASE("a host's handlers get their signals after PoCL's compiler has put its own before them",
+          "[device][promise:process]") {
     for (const int signal : {SIGHUP, SIGINT, SIGTERM, SIGUSR2})
         require_good("pocl", [signal] {
             static volatile std::sig_atomic_t got = 0;
@@ -207,7 +209,7 @@ TEST_CASE("a host's handlers get their signals after PoCL's compiler has put its
         });
 }
 
-TEST_CASE("a Renderer may go from thread to thread, and needs little of their stacks", "[device]") {
+TEST_CASE("a Renderer may go from thread to thread, and needs little of their stacks", "[device][promise:process]") {
     for (const std::string who : {"native", "reference"})
         require_good(who, [&] {
             struct Call {
@@ -251,7 +253,7 @@ TEST_CASE("a Renderer may go from thread to thread, and needs little of their st
         });
 }
 
-TEST_CASE("a host's locale changes nothing in what is read or written", "[device]") {
+TEST_CASE("a host's locale changes nothing in what is read or written", "[device][promise:process]") {
     require_good("C++", [] {
         const command_test::Folder folder;
         const std::string usual = texts(folder / "");
@@ -270,7 +272,7 @@ TEST_CASE("a host's locale changes nothing in what is read or written", "[device
         });
 }
 
-TEST_CASE("a process ends with its own status while another thread computes", "[device]") {
+TEST_CASE("a process ends with its own status while another thread computes", "[device][promise:process]") {
     for (const std::string who : {"native", "reference", "pocl"}) {
         const int times = who == "pocl" ? 8 : 20;
         for (int i = 0; i < times; ++i) {
@@ -300,7 +302,8 @@ TEST_CASE("a process ends with its own status while another thread computes", "[
                 }) == 7);
 }
 
-TEST_CASE("a process ends with its own status where what draws with PoCL is destroyed by exit() or unloaded") {
+TEST_CASE("a process ends with its own status where what draws with PoCL is destroyed by exit() or unloaded",
+          "[promise:process]") {
     const auto on_thread = [](const auto& work) { std::async(std::launch::async, work).get(); };
     const auto keep = [] { kept.emplace(drawn_by_pocl()); };
     const auto unload = [] {

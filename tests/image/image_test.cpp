@@ -75,7 +75,7 @@ std::string failure(Status status, Act act) {
 
 }  // namespace
 
-TEST_CASE("an EXR keeps every channel, bit by bit, and the header", "[image]") {
+TEST_CASE("an EXR keeps every channel, bit by bit, and the header", "[image][promise:pictures]") {
     const Folder folder;
     const Image written = full_picture();
     write_image(written, folder / "picture.exr");
@@ -106,7 +106,7 @@ TEST_CASE("a matrix stands in the EXR as OpenEXR wants it, for row vectors", "[i
     CHECK(std::vector<float>(first, first + 4) == std::vector<float>{1, 5, 9, 13});
 }
 
-TEST_CASE("channels that csgrt does not know keep their place after those it knows", "[image]") {
+TEST_CASE("channels that csgrt does not know keep their place after those it knows", "[image][promise:pictures]") {
     const Folder folder;
     Image image = gray({0.5f});
     image.names = {"extra", "Z", "G"};
@@ -114,7 +114,7 @@ TEST_CASE("channels that csgrt does not know keep their place after those it kno
     CHECK(read_image(folder / "a.exr").names == std::vector<std::string>{"G", "Z", "extra"});
 }
 
-TEST_CASE("a PNG says that it is sRGB and has alpha where a pixel is not opaque", "[image]") {
+TEST_CASE("a PNG says that it is sRGB and has alpha where a pixel is not opaque", "[image][promise:colors]") {
     Image image = gray({0.5f, 0.25f});
     const auto file = [&] {
         const std::vector<unsigned char> bytes = encode(image, "png", "test");
@@ -136,7 +136,7 @@ TEST_CASE("a PNG says that it is sRGB and has alpha where a pixel is not opaque"
     CHECK(file().find(srgb) != std::string::npos);
 }
 
-TEST_CASE("EXR and PNG of one picture look the same, however it was drawn", "[image]") {
+TEST_CASE("EXR and PNG of one picture look the same, however it was drawn", "[image][promise:colors]") {
     const Folder folder;
     const char* scenes = std::getenv("CSGRT_SCENES");
     REQUIRE(scenes != nullptr);
@@ -213,7 +213,7 @@ TEST_CASE("who follows the writing of an EXR gets the same bytes, and may end it
     CHECK(folder.files().size() == 1);
 }
 
-TEST_CASE("a file is replaced whole, and left alone when writing fails", "[image]") {
+TEST_CASE("a file is replaced whole, and left alone when writing fails", "[image][promise:files]") {
     const Folder folder;
     std::ofstream(folder / "a.png") << "old";
     write_image(gray({1, 0}), folder / "a.png");
@@ -240,7 +240,7 @@ TEST_CASE("a file that cannot be written is named, with the reason", "[image]") 
           path + ": cannot create: No such file or directory");
 }
 
-TEST_CASE("channels: in one piece, copied, moved, compared, and of one size", "[image]") {
+TEST_CASE("channels: in one piece, copied, moved, compared, and of one size", "[image][promise:pictures]") {
     Channels channels(3, std::vector<float>{1, 2});
     REQUIRE(channels.size() == 2);
     CHECK(channels[1].data() == channels[0].data() + 3);

@@ -33,9 +33,9 @@ void require_scenes(bool all) {
 
 }  // namespace
 
-TEST_CASE("device and reference agree on our scenes", "[agreement]") { require_scenes(test::sanitized); }
+TEST_CASE("device and reference agree on our scenes", "[agreement][promise:bits]") { require_scenes(test::sanitized); }
 
-TEST_CASE("device and reference agree on our scenes, each with its own program", "[.long][agreement]") {
+TEST_CASE("device and reference agree on our scenes, each with its own program", "[.long][agreement][promise:bits]") {
     require_scenes(true);
 }
 
@@ -55,7 +55,8 @@ TEST_CASE("a ray whose segments do not fit the memory budget is an error, not a 
 
 // Of whose leaves most are solids that are taken away: they start no term, and first hits looked for them among those
 // that do.
-TEST_CASE("device and reference agree on a tree that is walked from covered leaf to covered leaf", "[agreement]") {
+TEST_CASE("device and reference agree on a tree that is walked from covered leaf to covered leaf",
+          "[agreement][promise:bits][promise:booleans]") {
     const stress::StressScene made = stress::make("deep_trees", 1);
     REQUIRE(compile(made.scene, made.objects).has_large_terms);
     require_agreement(made.scene, made.objects, 48, 500);

@@ -32,7 +32,8 @@ void require_answers(const Scene& scene, const std::vector<Ray>& rays, std::size
 
 }  // namespace
 
-TEST_CASE("device and reference agree on nested balls, whatever operators join them", "[agreement]") {
+TEST_CASE("device and reference agree on nested balls, whatever operators join them",
+          "[agreement][promise:bits][promise:booleans]") {
     const std::vector<Operator> alternating = {Operator::difference, Operator::xor_, Operator::union_,
                                                Operator::intersection};
     for (const auto& ops : {std::vector{Operator::xor_}, {Operator::union_}, {Operator::difference}, alternating}) {

@@ -18,7 +18,8 @@ TEST_CASE("the samples have every type of solid") {
     CHECK(compile(test::scene_of_samples()).solid_types == (1u << SOLID_TYPES) - 1);
 }
 
-TEST_CASE("every solid: regions are what the operators make of the solids' segments") {
+TEST_CASE("every solid: regions are what the operators make of the solids' segments",
+          "[promise:booleans][promise:overlap]") {
     const EverySolid model(6);
     Both both(model.scene);
     const std::vector<RayPartitions> found = both.shoot(model.rays);
@@ -70,7 +71,8 @@ TEST_CASE("every solid: regions are what the operators make of the solids' segme
 
 TEST_CASE(
     "every solid: partitions are in order and disjoint, with normals outward, whole where they hold the start, "
-    "left out where they end before it") {
+    "left out where they end before it",
+    "[promise:partitions][promise:overlap]") {
     const EverySolid model(4);
     Both both(model.scene);
     const std::vector<RayPartitions> base = both.shoot(model.rays);
@@ -154,7 +156,8 @@ TEST_CASE("every solid: verify finds nothing wrong where a ray starts on a surfa
     }
 }
 
-TEST_CASE("every solid: a ray has the same regions and overlaps from its other end") {
+TEST_CASE("every solid: a ray has the same regions and overlaps from its other end",
+          "[promise:partitions][promise:overlap]") {
     const EverySolid model(4);
     Both both(model.scene);
     const std::vector<RayPartitions> base = both.shoot(model.rays);
@@ -191,7 +194,8 @@ TEST_CASE("every solid: a ray has the same regions and overlaps from its other e
     CHECK(overlaps > 100);
 }
 
-TEST_CASE("every solid: distances count lengths of the direction, to the bit where these are powers of two") {
+TEST_CASE("every solid: distances count lengths of the direction, to the bit where these are powers of two",
+          "[promise:partitions]") {
     const EverySolid model(2);
     Both both(model.scene);
     const std::vector<RayPartitions> base = both.shoot(model.rays);
@@ -209,7 +213,8 @@ TEST_CASE("every solid: distances count lengths of the direction, to the bit whe
     }
 }
 
-TEST_CASE("every solid: a picture shows the first partition of each of its rays, and counts what the rays meet") {
+TEST_CASE("every solid: a picture shows the first partition of each of its rays, and counts what the rays meet",
+          "[promise:pictures]") {
     EverySolid model(0);
     Both both(model.scene);
     View view;
@@ -291,7 +296,8 @@ TEST_CASE("every solid: a picture shows the first partition of each of its rays,
     }
 }
 
-TEST_CASE("every solid: what is thinner than the tolerance vanishes, what is thicker is there") {
+TEST_CASE("every solid: what is thinner than the tolerance vanishes, what is thicker is there",
+          "[promise:coincidence]") {
     constexpr double thickness = 1e-3;
     const Vec3 way = unit({2, 3, -6});
     Scene scene = test::scene_of_samples();
@@ -342,7 +348,8 @@ TEST_CASE("every solid: what is thinner than the tolerance vanishes, what is thi
     }
 }
 
-TEST_CASE("every solid: less a copy of itself it is nothing, with one it has no seam, and of two the first has all") {
+TEST_CASE("every solid: less a copy of itself it is nothing, with one it has no seam, and of two the first has all",
+          "[promise:coincidence][promise:overlap]") {
     Scene scene = test::scene_of_samples();
     Random random(13);
     std::vector<Ray> rays;
@@ -402,7 +409,7 @@ TEST_CASE("every solid: less a copy of itself it is nothing, with one it has no 
     }
 }
 
-TEST_CASE("every solid: a placement moves it, turns it, stretches it and mirrors it") {
+TEST_CASE("every solid: a placement moves it, turns it, stretches it and mirrors it", "[promise:scenes]") {
     Scene scene = test::scene_of_samples();
     Random random(17);
     std::vector<Ray> rays;

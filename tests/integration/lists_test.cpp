@@ -33,7 +33,7 @@ std::vector<Ray> along_x() { return {{{0, 0, 0}, {1, 0, 0}}, {{0, 5, 0}, {1, 0, 
 
 }  // namespace
 
-TEST_CASE("the rows of a ray stand in order, and a cut end has the bound, no solid and no normal") {
+TEST_CASE("the rows of a ray stand in order, and a cut end has the bound, no solid and no normal", "[promise:lists]") {
     Renderer renderer(balls(), {}, GENERATE(test::on_device(), Settings{.reference = true}));
     Partitions answer;
     renderer.partitions(along_x(), answer, all_fields, {.all = {0, 1.25}});
@@ -52,7 +52,7 @@ TEST_CASE("the rows of a ray stand in order, and a cut end has the bound, no sol
           std::vector<std::int32_t>{1, 2});
 }
 
-TEST_CASE("a range of one point holds what begins or goes on there") {
+TEST_CASE("a range of one point holds what begins or goes on there", "[promise:lists]") {
     Renderer renderer(balls(), {}, GENERATE(test::on_device(), Settings{.reference = true}));
     Partitions answer;
     const std::vector<std::pair<double, std::int32_t>> expected = {{-0.5, -1}, {0, 0}, {1, 0}, {2, 1},
@@ -66,7 +66,7 @@ TEST_CASE("a range of one point holds what begins or goes on there") {
     }
 }
 
-TEST_CASE("only the arrays that are asked for are filled, and their memory is used again") {
+TEST_CASE("only the arrays that are asked for are filled, and their memory is used again", "[promise:lists]") {
     Renderer renderer(balls(), {}, test::on_device());
     Partitions answer;
     renderer.partitions(along_x(), answer, all_fields);
@@ -113,7 +113,8 @@ TEST_CASE("ranges count lengths of any direction") {
     }
 }
 
-TEST_CASE("a first hit is the range's begin where that is inside, and infinity where there is none") {
+TEST_CASE("a first hit is the range's begin where that is inside, and infinity where there is none",
+          "[promise:lists]") {
     Renderer renderer(balls(), {}, GENERATE(test::on_device(), Settings{.reference = true}));
     Hits hits;
     const RayRange ranges[] = {{0.5, 9}, {-9, 9}, {0, 0.25}};
@@ -128,7 +129,7 @@ TEST_CASE("a first hit is the range's begin where that is inside, and infinity w
     CHECK((occluded.size() == 3 && occluded[0] == 1 && occluded[1] == 0 && occluded[2] == 0));
 }
 
-TEST_CASE("batches come in order, hold the list's rows, and end when the host has enough") {
+TEST_CASE("batches come in order, hold the list's rows, and end when the host has enough", "[promise:lists]") {
     Settings settings = GENERATE(test::on_device(), Settings{.reference = true});
     std::vector<double> told;
     const bool is_followed = GENERATE(false, true);
@@ -158,7 +159,7 @@ TEST_CASE("batches come in order, hold the list's rows, and end when the host ha
     CHECK_THROWS_AS(renderer.partitions(rays, fails), std::runtime_error);
 }
 
-TEST_CASE("a grid's rays are those of its list, whoever makes them") {
+TEST_CASE("a grid's rays are those of its list, whoever makes them", "[promise:lists]") {
     const every_solid::EverySolid model(test::sanitized ? 1 : 3);
     const Model compiled(model.scene);
     View view{.width = 37, .height = 21, .camera = {}};
@@ -205,7 +206,7 @@ TEST_CASE("a grid's rays are those of its list, whoever makes them") {
     CHECK_THROWS_AS(compiled.ray_of(view, 37, 0), Error);
 }
 
-TEST_CASE("grids that have no rays, or rays that Limits excludes, are refused") {
+TEST_CASE("grids that have no rays, or rays that Limits excludes, are refused", "[promise:lists][promise:refusals]") {
     const Model model(balls());
     Partitions answer;
     const auto refuses = [&](RayGrid grid) { CHECK_THROWS_AS(model.partitions(grid, answer), Error); };
@@ -234,7 +235,7 @@ TEST_CASE("grids that have no rays, or rays that Limits excludes, are refused") 
     CHECK_THROWS_AS(rays_pinhole(50, {}, {0, 0, 1}, {0, 0, 1}, 3, 2), Error);
 }
 
-TEST_CASE("lists have the same bits through OpenCL's functions, of every solid and of deep rays") {
+TEST_CASE("lists have the same bits through OpenCL's functions, of every solid and of deep rays", "[promise:lists]") {
     const auto compare = [](const Scene& scene, const std::vector<Ray>& list) {
         Renderer expected(scene, {}, {.reference = true});
         Renderer direct(scene, {}, test::on_native_device());

@@ -14,7 +14,7 @@ using test::require_agreement;
 using test::require_same;
 using test::with_every_type;
 
-TEST_CASE("device and reference agree on BRL-CAD's models", "[agreement]") {
+TEST_CASE("device and reference agree on BRL-CAD's models", "[agreement][promise:bits]") {
     const std::string folder = test::folder("CSGRT_BRLCAD");
     if (folder.empty()) {
         WARN("CSGRT_BRLCAD names no folder of models: nothing compared");
@@ -29,14 +29,14 @@ TEST_CASE("device and reference agree on BRL-CAD's models", "[agreement]") {
     }
 }
 
-TEST_CASE("the scene of every type has every type", "[agreement]") {
+TEST_CASE("the scene of every type has every type", "[agreement][promise:solids]") {
     if (test::folder("CSGRT_SCENES").empty()) return;
     std::vector<std::string> objects;
     const Scene scene = with_every_type(load_scene(test::folder("CSGRT_SCENES") + "/onion.json"), objects);
     CHECK(compile(scene, objects).solid_types == (1u << SOLID_TYPES) - 1);
 }
 
-TEST_CASE("device and reference agree on BRL-CAD's models, 512 x 512", "[.long][agreement]") {
+TEST_CASE("device and reference agree on BRL-CAD's models, 512 x 512", "[.long][agreement][promise:bits]") {
     const std::string folder = test::folder("CSGRT_BRLCAD");
     if (folder.empty()) {
         WARN("CSGRT_BRLCAD names no folder of models: nothing compared");
@@ -48,7 +48,8 @@ TEST_CASE("device and reference agree on BRL-CAD's models, 512 x 512", "[.long][
     }
 }
 
-TEST_CASE("a model gives the same picture from .asc, from .g and from the .json that they become", "[agreement]") {
+TEST_CASE("a model gives the same picture from .asc, from .g and from the .json that they become",
+          "[agreement][promise:round-trip]") {
     const std::string folder = test::folder("CSGRT_BRLCAD");
     if (folder.empty()) {
         WARN("CSGRT_BRLCAD names no folder of models: nothing compared");

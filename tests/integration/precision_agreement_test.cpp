@@ -71,7 +71,7 @@ void require_hard_rays(Settings settings) {
 
 }  // namespace
 
-TEST_CASE("device and reference agree in single precision on our scenes", "[agreement]") {
+TEST_CASE("device and reference agree in single precision on our scenes", "[agreement][promise:bits]") {
     require_scenes(in_single(), false);
 }
 

@@ -30,7 +30,7 @@ std::string both_pocls() { return pocl_numbers()[0] + "," + pocl_numbers()[1]; }
 
 }  // namespace
 
-TEST_CASE("two devices give what one gives", "[.two_devices]") {
+TEST_CASE("two devices give what one gives", "[.two_devices][promise:bits]") {
     const std::string folder = test::folder("CSGRT_SCENES");
     REQUIRE(!folder.empty());
     for (const char* file : {"/operators.json", "/overlap.json"}) {

@@ -44,7 +44,8 @@ std::string tests_in(std::initializer_list<const char*> folders) {
 
 }  // namespace
 
-TEST_CASE("solid types: each has a sample, and a test of its geometry or of the pieces that it is cut into") {
+TEST_CASE("solid types: each has a sample, and a test of its geometry or of the pieces that it is cut into",
+          "[promise:solids]") {
     std::set<std::string> sampled;
     for (const Object& object : test::scene_of_samples().objects)
         sampled.emplace(type_name(std::get<Solid>(object).shape));
@@ -58,7 +59,7 @@ TEST_CASE("solid types: each has a sample, and a test of its geometry or of the 
     }
 }
 
-TEST_CASE("solid types: an oracle knows each and agrees with what is packed and traced") {
+TEST_CASE("solid types: an oracle knows each and agrees with what is packed and traced", "[promise:solids]") {
     for (const test::Sample& sample : test::samples) {
         INFO(sample.name);
         oracle::Random random(1);

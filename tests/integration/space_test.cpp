@@ -40,7 +40,7 @@ std::vector<Vec3> random_points(const Box& box, std::size_t count) {
 
 }  // namespace
 
-TEST_CASE("a point belongs to the region that begins or goes on there along x") {
+TEST_CASE("a point belongs to the region that begins or goes on there along x", "[promise:lists]") {
     Renderer renderer(boxes(), {}, GENERATE(test::on_device(), Settings{.reference = true}));
     const std::vector<Vec3> points = {{-1, 0, 0}, {0, 0, 0}, {0.5, 0, 0}, {1, 0, 0}, {2.5, 0, 0}, {4, 0, 0}, {9, 9, 9}};
     Array<std::int32_t> found;
@@ -56,7 +56,7 @@ TEST_CASE("a point belongs to the region that begins or goes on there along x") 
     }
 }
 
-TEST_CASE("a slice shows regions, overlaps and what is empty, row 0 on top") {
+TEST_CASE("a slice shows regions, overlaps and what is empty, row 0 on top", "[promise:lists]") {
     Renderer renderer(boxes(), {}, GENERATE(test::on_device(), Settings{.reference = true}));
     const Slice slice = slice_of(renderer.model().bounds(), {0, 0, 2}, 0.25, 8, 6);
     CHECK((slice.center == Vec3{2, 0, 0.25} && slice.right == Vec3{0.5, 0, 0} && slice.up == Vec3{0, 0.5, 0}));
@@ -143,5 +143,7 @@ static void judge_space(std::size_t points_a_scene, int pixels) {
     if (all > 100'000) WARN(decided << " of " << all << " places are decided, none is wrong");
 }
 
-TEST_CASE("points and slices are the oracle's, where rounding decides nothing") { judge_space(100, 8); }
+TEST_CASE("points and slices are the oracle's, where rounding decides nothing", "[promise:lists]") {
+    judge_space(100, 8);
+}
 TEST_CASE("a million points are the oracle's", "[.long]") { judge_space(40'000, 80); }

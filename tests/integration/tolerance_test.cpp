@@ -64,7 +64,7 @@ std::vector<RayPartitions> shot(const Scene& scene, const char* region, Settings
 
 }  // namespace
 
-TEST_CASE("the tolerance is the setting's, else the scene's, else what rounding separates") {
+TEST_CASE("the tolerance is the setting's, else the scene's, else what rounding separates", "[promise:coincidence]") {
     Scene scene = scene_of({box({-3, -2, -6}, {3, 2, 6})});  // its diagonal is 14
     const auto tolerance = [&](const Settings& settings) {
         return Renderer(scene, {}, settings).statistics().tolerance;
@@ -90,7 +90,8 @@ TEST_CASE("the tolerance is the setting's, else the scene's, else what rounding 
     CHECK(tolerance(by(Tolerance::length)) == Approx(7e9 * 0x1p-49).epsilon(0.01));
 }
 
-TEST_CASE("a gap of 1e-9 of a solid's size is seen, and rounding is not, on every surface that solids share") {
+TEST_CASE("a gap of 1e-9 of a solid's size is seen, and rounding is not, on every surface that solids share",
+          "[promise:coincidence]") {
     struct {
         const char* name;
         Shape (*larger)(double by);
@@ -134,7 +135,7 @@ TEST_CASE("a gap of 1e-9 of a solid's size is seen, and rounding is not, on ever
     }
 }
 
-TEST_CASE("a ball and the end of a particle are one, which are computed in two ways") {
+TEST_CASE("a ball and the end of a particle are one, which are computed in two ways", "[promise:coincidence]") {
     const Part particle{{0, 0, -20}, {0, 0, 40}, 10, 10};
     std::size_t met = 0;
     for (const double z : {-20.0, 20.0}) {
@@ -149,7 +150,8 @@ TEST_CASE("a ball and the end of a particle are one, which are computed in two w
     CHECK(met > 100);
 }
 
-TEST_CASE("ends that only rounding separates are one, but not by the rule that there is none") {
+TEST_CASE("ends that only rounding separates are one, but not by the rule that there is none",
+          "[promise:coincidence]") {
     // A ball, and a box whose face all but touches it where the ray goes.
     const Scene scene = two_of(ball({0, 0, 0}, 1), box({1 + 1e-13, -1, -1}, {2, 1, 1}));
     const std::vector<Ray> ray = {{{-9, 0, 0}, {1, 0, 0}}};
@@ -157,7 +159,8 @@ TEST_CASE("ends that only rounding separates are one, but not by the rule that t
     CHECK(shot(scene, "joined", by(Tolerance::none), ray)[0].partitions.size() == 2);
 }
 
-TEST_CASE("in BRL-CAD's files ends within 0.0005 mm are one, unless the rule is that of surfaces") {
+TEST_CASE("in BRL-CAD's files ends within 0.0005 mm are one, unless the rule is that of surfaces",
+          "[promise:coincidence]") {
     const auto database = [](const char* gap) {
         const std::string text =
             std::string("title t\nunits mm\n") + "put a.s sph V {0 0 0} A {1 0 0} B {0 1 0} C {0 0 1}\n" +

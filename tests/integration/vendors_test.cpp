@@ -87,13 +87,13 @@ std::string name_of(std::size_t number, const DeviceInfo& device) {
 
 }  // namespace
 
-TEST_CASE("every driver that is installed can be used", "[.vendors]") {
+TEST_CASE("every driver that is installed can be used", "[.vendors][promise:devices]") {
     std::vector<std::string> notes;
     devices(&notes);
     for (const std::string& note : notes) FAIL_CHECK(note);
 }
 
-TEST_CASE("every device gives the reference's bits", "[.vendors]") {
+TEST_CASE("every device gives the reference's bits", "[.vendors][promise:bits]") {
     const std::vector<DeviceInfo> all = devices();
     REQUIRE_FALSE(all.empty());
     const char* name_of_one = std::getenv("CSGRT_DEVICE");

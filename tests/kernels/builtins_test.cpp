@@ -57,9 +57,11 @@ void require_own_declarations(const std::vector<Settings>& all) {
 
 }  // namespace
 
-TEST_CASE("kernels use no function of OpenCL C that builtins.h lacks") { require_own_declarations({Settings{}}); }
+TEST_CASE("kernels use no function of OpenCL C that builtins.h lacks", "[promise:bits]") {
+    require_own_declarations({Settings{}});
+}
 
-TEST_CASE("kernels in single precision use no function of OpenCL C that builtins.h lacks", "[.pocl]") {
+TEST_CASE("kernels in single precision use no function of OpenCL C that builtins.h lacks", "[.pocl][promise:bits]") {
     require_own_declarations({{.precision = Precision::single}, with_methods({.single_world = true})});
 }
 

@@ -12,7 +12,7 @@
 
 using namespace csgrt;
 
-TEST_CASE("the kernels, run on the host, draw what the reference draws", "[kernels]") {
+TEST_CASE("the kernels, run on the host, draw what the reference draws", "[kernels][promise:bits]") {
     const auto files = test::scene_files();
     if (files.empty()) WARN("CSGRT_SCENES names no folder of scenes: nothing compared");
     for (const std::string& file : files) {

@@ -174,7 +174,7 @@ TEST_CASE("the thesis's example: three segments make five partitions", "[weave]"
     require_equal(ends, 0);
 }
 
-TEST_CASE("ends within the tolerance change at once and leave no sliver", "[weave]") {
+TEST_CASE("ends within the tolerance change at once and leave no sliver", "[weave][promise:coincidence]") {
     // B begins 1e-4 behind A and ends 1e-4 before it: one partition, no skins.
     const std::vector<kernel::End> ends = {{1, 0, 0}, {5, 0, 0}, {1.0001, 1, 0}, {4.9999, 1, 0}};
     const std::vector<WovenPartition> p = weave_by_reference(ends, 0.0005);

@@ -140,7 +140,7 @@ int compare(application* ap, partition* head, seg*) {
 
 }  // namespace
 
-TEST_CASE("rt_shootray and shoot_many give the partitions of Renderer::shoot, to the last bit") {
+TEST_CASE("rt_shootray and shoot_many give the partitions of Renderer::shoot, to the last bit", "[promise:librt]") {
     for (const std::string& file : test::scene_files()) {
         const Opened rtip = open(file);
         Renderer renderer(rtip->scene, {}, test::on_native_device());
@@ -178,7 +178,7 @@ TEST_CASE("rt_shootray and shoot_many give the partitions of Renderer::shoot, to
     }
 }
 
-TEST_CASE("a callback about overlaps gives them to nobody, the first or the second region") {
+TEST_CASE("a callback about overlaps gives them to nobody, the first or the second region", "[promise:librt]") {
     const Opened rtip = balls();
     Told told;
     application ap = asking(*rtip, told);
@@ -255,7 +255,7 @@ TEST_CASE("however overlaps are decided, each end has its solid and a normal tha
     CHECK(ends > 1000);
 }
 
-TEST_CASE("a_onehit counts ends, and a ray that meets nothing is a miss") {
+TEST_CASE("a_onehit counts ends, and a ray that meets nothing is a miss", "[promise:librt]") {
     const Opened rtip = balls();
     Told told;
     application ap = asking(*rtip, told);
@@ -279,7 +279,7 @@ TEST_CASE("a_onehit counts ends, and a ray that meets nothing is a miss") {
     CHECK_FALSE(librt::shoot(rtip.get(), along_x(-20), [](const partition&) { return false; }));
 }
 
-TEST_CASE("callbacks shoot, from several threads at once") {
+TEST_CASE("callbacks shoot, from several threads at once", "[promise:librt]") {
     const Opened rtip = balls();
     std::vector<std::thread> threads;
     std::vector<std::string> texts(4);
@@ -306,7 +306,7 @@ TEST_CASE("callbacks shoot, from several threads at once") {
     for (const std::string& text : texts) CHECK(text == "e.r 100 104, f.r 104 105, g.r 105 106");
 }
 
-TEST_CASE("what cannot be is refused") {
+TEST_CASE("what cannot be is refused", "[promise:librt]") {
     CHECK(rt_dirbuild("no/such/file.g", nullptr, 0) == RTI_NULL);
     const Opened rtip = balls();
     CHECK(rtip->Regions[3]->reg_los == 50);

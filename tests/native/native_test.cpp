@@ -66,7 +66,8 @@ TEST_CASE("the native device's sums are those of one entry after the other", "[d
     }
 }
 
-TEST_CASE("the native device has the kernels of the default method and says so of others", "[device]") {
+TEST_CASE("the native device has the kernels of the default method and says so of others",
+          "[device][promise:devices]") {
     if (!have_native()) return;
     Device device("native");
     for (const Settings& other : {with_methods({.contraction = true}), Settings{.precision = Precision::single},
@@ -83,7 +84,7 @@ TEST_CASE("the native device has the kernels of the default method and says so o
                       ContainsSubstring("clEnqueueNDRangeKernel (scan_sums"));
 }
 
-TEST_CASE("the native device draws the same bits with any number of threads", "[device]") {
+TEST_CASE("the native device draws the same bits with any number of threads", "[device][promise:bits]") {
     if (!have_native()) return;
     const Scene scene = bench::scene_of_parts(60);
     Settings settings;
@@ -103,7 +104,7 @@ TEST_CASE("the native device draws the same bits with any number of threads", "[
     test::require_same(one.shoot(rays), several.shoot(rays));
 }
 
-TEST_CASE("native devices draw for several renderers at once", "[device]") {
+TEST_CASE("native devices draw for several renderers at once", "[device][promise:models]") {
     if (!have_native()) return;
     const Scene scene = bench::scene_of_parts(60);
     Settings settings;

@@ -43,7 +43,7 @@ Intervals on_axis(const SceneOracle& oracle, std::size_t region) {
 
 }  // namespace
 
-TEST_CASE("scene oracle: operators", "[oracle]") {
+TEST_CASE("scene oracle: operators", "[oracle][promise:booleans]") {
     // a: -2..2, b: 0..4, c: 1..3 on the axis
     const auto found = [](std::vector<TreeNode> nodes) {
         Scene scene;
@@ -79,7 +79,7 @@ TEST_CASE("scene oracle: matrices add up on the way down", "[oracle]") {
     CHECK(on_axis(oracle, 1) == Intervals{{5, 9}});
 }
 
-TEST_CASE("scene oracle: operators above regions apply to each region", "[oracle]") {
+TEST_CASE("scene oracle: operators above regions apply to each region", "[oracle][promise:booleans]") {
     Scene scene;
     scene.objects = {ball("a", 0, 2),
                      ball("b", 5, 2),
@@ -229,7 +229,7 @@ TEST_CASE("scene judge: an overlap behind the start cuts what reaches across it,
     CHECK(fault(-0.9).find("no solid has an end") != std::string::npos);
 }
 
-TEST_CASE("scene judge: of a ray in an end face, what lies across the axis is no tie", "[oracle]") {
+TEST_CASE("scene judge: of a ray in an end face, what lies across the axis is no tie", "[oracle][promise:contact]") {
     const Scene scene = parse_scene(R"({"csgrt": 1, "objects": ["r"],
         "solids": {"box": {"type": "box", "low": [-3, -3, -3], "high": [3, 3, 3]},
                    "ring": {"type": "revolve", "base": [0, 0, 0], "axis": [0, 0, 1], "r": [1, 0, 0], "angle": 270,

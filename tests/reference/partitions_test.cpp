@@ -132,7 +132,7 @@ private:
 
 }  // namespace
 
-TEST_CASE("scenes agree with the oracle along rays", "[pipeline][oracle]") {
+TEST_CASE("scenes agree with the oracle along rays", "[pipeline][oracle][promise:booleans][promise:partitions]") {
     const std::vector<std::string> files = test::scene_files();
     if (files.empty()) {
         WARN("no scenes: CSGRT_SCENES is not set");
@@ -170,7 +170,8 @@ TEST_CASE("the oracle notices that a scene stands elsewhere by a thousandth", "[
     }
 }
 
-TEST_CASE("random scenes agree with the oracle along rays", "[pipeline][oracle]") {
+TEST_CASE("random scenes agree with the oracle along rays",
+          "[pipeline][oracle][promise:booleans][promise:partitions]") {
     for (std::uint64_t seed = 1; seed <= 40; ++seed) {
         INFO("seed " << seed);
         const RandomScene made(seed);
@@ -178,7 +179,7 @@ TEST_CASE("random scenes agree with the oracle along rays", "[pipeline][oracle]"
     }
 }
 
-TEST_CASE("many random scenes agree with the oracle along rays", "[.long]") {
+TEST_CASE("many random scenes agree with the oracle along rays", "[.long][promise:booleans][promise:partitions]") {
     for (std::uint64_t seed = 1001; seed <= 1500; ++seed) {
         INFO("seed " << seed);
         const RandomScene made(seed);
@@ -198,7 +199,8 @@ TEST_CASE("BRL-CAD's models agree with the oracle along rays", "[.long]") {
     }
 }
 
-TEST_CASE("the tolerance is in millimetres, whatever the length of the direction", "[pipeline][oracle]") {
+TEST_CASE("the tolerance is in millimetres, whatever the length of the direction",
+          "[pipeline][oracle][promise:coincidence]") {
     Scene scene;
     scene.objects = {Solid{"plate",
                            Arb{{{{-1, -1, 0},

@@ -77,7 +77,7 @@ Score score(const Scene& scene, Settings settings, double away) {
 
 TEST_CASE(
     "single precision relative to the eye sees from afar what double sees; in the world's coordinates it does not",
-    "[pipeline][oracle]") {
+    "[pipeline][oracle][promise:rounding]") {
     const std::string folder = test::folder("CSGRT_SCENES");
     if (folder.empty()) {
         WARN("CSGRT_SCENES names no folder of scenes: nothing judged");
@@ -97,7 +97,7 @@ TEST_CASE(
     CHECK(score(far, in_world, 3).wrong > 0);
 }
 
-TEST_CASE("113 bits give the true ends to the last bit of a double", "[geometry]") {
+TEST_CASE("113 bits give the true ends to the last bit of a double", "[geometry][promise:rounding]") {
     // Of these every parameter is exact, so that the oracle and the kernels speak of the same solid.
     const std::pair<const char*, Shape> solids[] = {
         {"sphere", Ell{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}},
@@ -142,7 +142,7 @@ TEST_CASE("113 bits give the true ends to the last bit of a double", "[geometry]
     }
 }
 
-TEST_CASE("a precision where it is not is refused", "[pipeline]") {
+TEST_CASE("a precision where it is not is refused", "[pipeline][promise:rounding]") {
     const auto refusal = [](const Settings& wanted) {
         try {
             Scene scene;

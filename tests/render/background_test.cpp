@@ -8,7 +8,8 @@
 
 using namespace csgrt;
 
-TEST_CASE("the background is opaque, or with View::transparent nothing; `region` tells what is hit") {
+TEST_CASE("the background is opaque, or with View::transparent nothing; `region` tells what is hit",
+          "[promise:colors]") {
     Scene scene = bench::scene_of_parts(20);
     scene.background = {0.2, 0.5, 1};
     Settings by_reference;

@@ -77,7 +77,7 @@ void wait_for_job(const DeviceTakeover& takeover) {
 
 }  // namespace
 
-TEST_CASE("frames before, while and after a GPU takes over have the same bits") {
+TEST_CASE("frames before, while and after a GPU takes over have the same bits", "[promise:devices]") {
     if (!can_take_over()) return;
     const Scene scene = bench::scene_of_parts(20);
     Settings settings;
@@ -159,7 +159,7 @@ TEST_CASE("where an edit brings a new type of solid, the native device draws unt
     CHECK(renderer.statistics().device == gpu_name);
 }
 
-TEST_CASE("who waits for a GPU has it from the first frame on") {
+TEST_CASE("who waits for a GPU has it from the first frame on", "[promise:devices]") {
     if (!can_take_over()) return;
     const std::string gpu_name = pocl_devices()[0].info.name;
     const Scene scene = bench::scene_of_parts(5);
@@ -179,7 +179,7 @@ TEST_CASE("who waits for a GPU has it from the first frame on") {
     }
 }
 
-TEST_CASE("a GPU that fails is a warning, and an error of who named it") {
+TEST_CASE("a GPU that fails is a warning, and an error of who named it", "[promise:failures]") {
     if (!can_take_over()) return;
     const Scene scene = bench::scene_of_parts(5);
     const PretendedGpu gpu(pocl, true);

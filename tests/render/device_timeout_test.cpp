@@ -20,7 +20,7 @@ constexpr double timeout = 0.05;
 
 }  // namespace
 
-TEST_CASE("a device that never answers ends the call in time, and its Renderer is used no more") {
+TEST_CASE("a device that never answers ends the call in time, and its Renderer is used no more", "[promise:failures]") {
     if (find_native_devices().empty()) return;
     if (test::sanitized) return;  // what a lost device holds stays, which is a leak to it
     FaultyOpenCl faulty(native::functions());
@@ -71,7 +71,8 @@ TEST_CASE("a device that never answers ends the call in time, and its Renderer i
     CHECK_NOTHROW(fresh.render(every));
 }
 
-TEST_CASE("how long a device may take: a GPU a minute, a processor any time, and what the caller says") {
+TEST_CASE("how long a device may take: a GPU a minute, a processor any time, and what the caller says",
+          "[promise:failures]") {
     if (find_native_devices().empty()) return;
     FoundDevice device = find_native_devices().front();
     CHECK(Device(device).cl().patience == 0);

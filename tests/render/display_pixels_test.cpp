@@ -31,7 +31,7 @@ Image row(const std::vector<float>& values, const std::vector<float>& alpha = {}
 
 }  // namespace
 
-TEST_CASE("display pixels: each byte comes back from its linear light") {
+TEST_CASE("display pixels: each byte comes back from its linear light", "[promise:colors]") {
     std::vector<float> light, display;
     Bytes expected;
     for (int byte = 0; byte < 256; ++byte) {
@@ -67,7 +67,7 @@ TEST_CASE("display pixels: rounded to the nearest byte, cut off, and 0 where the
     }
 }
 
-TEST_CASE("display pixels: alpha is not associated, and stays linear") {
+TEST_CASE("display pixels: alpha is not associated, and stays linear", "[promise:colors]") {
     const float half = 0.5f, light = static_cast<float>(linear_of_display(100 / 255.0));
     CHECK(display_pixels(row({light, half * light, 0}, {1, half, 0})) ==
           Bytes{100, 100, 100, 255, 100, 100, 100, 128, 0, 0, 0, 0});

@@ -140,7 +140,7 @@ void edit_at_random(Edit& edit, const Model& model, std::mt19937& random) {
 
 }  // namespace
 
-TEST_CASE("each instance of a region has a path of its own, which edits of others do not change") {
+TEST_CASE("each instance of a region has a path of its own, which edits of others do not change", "[promise:edits]") {
     const Model model = wheels();
     CHECK(paths(model) == std::vector<std::string>{"/all/wheel/hub.r", "/all/wheel/rim.r", "/all/wheel@2/hub.r",
                                                    "/all/wheel@2/rim.r", "/all/wheel@3/hub.r", "/all/wheel@3/rim.r",
@@ -157,7 +157,7 @@ TEST_CASE("each instance of a region has a path of its own, which edits of other
     CHECK(paths(Model(parse_scene(json_scene_text(moved.scene()), "again.json"))) == paths(moved));
 }
 
-TEST_CASE("regions whose legs do not tell them apart are numbered") {
+TEST_CASE("regions whose legs do not tell them apart are numbered", "[promise:edits]") {
     const char* const both = R"({"csgrt": 1,
         "solids": {"a": {"type": "sphere", "center": [0, 0, 0], "radius": 1},
                    "b": {"type": "sphere", "center": [9, 0, 0], "radius": 1},
@@ -166,7 +166,7 @@ TEST_CASE("regions whose legs do not tell them apart are numbered") {
     CHECK(paths(Model(parse_scene(both, "both.json"))) == std::vector<std::string>{"/x/c", "/x/c@2"});
 }
 
-TEST_CASE("colours, finishes and states are those of one instance, or of all below a path") {
+TEST_CASE("colours, finishes and states are those of one instance, or of all below a path", "[promise:edits]") {
     const Model model = wheels();
     const Vec3 red{1, 0, 0}, blue{0, 0, 1};
     const Model painted = Edit(model).set_color("/all/wheel@2", red).set_color("/all/wheel@2/rim.r", blue).commit();
@@ -184,7 +184,7 @@ TEST_CASE("colours, finishes and states are those of one instance, or of all bel
     require_compiled_anew(Edit(shiny).set_finish("/all/hull.r", glow).commit());
 }
 
-TEST_CASE("what is hidden is seen through, and stays in partitions and Booleans") {
+TEST_CASE("what is hidden is seen through, and stays in partitions and Booleans", "[promise:edits]") {
     const Model model = wheels();
     const std::vector<Ray> ray{{{0, 0, 100}, {0, 0, -1}}};  // through the hull, then the first wheel
     const Model hidden = Edit(model).set_state("/all/hull.r", State::hidden).commit();
@@ -221,7 +221,7 @@ TEST_CASE("what is hidden is seen through, and stays in partitions and Booleans"
         Edit(model).set_state("/all", State::hidden).set_state("/all/wheel@2", State::shown).commit());
 }
 
-TEST_CASE("a matrix moves one instance, or all that share the leg") {
+TEST_CASE("a matrix moves one instance, or all that share the leg", "[promise:edits]") {
     const Model model = wheels();
     Matrix up = identity;
     up[11] = 5;
@@ -259,7 +259,7 @@ TEST_CASE("solids are replaced, objects added, legs removed with their operators
     for (const Model& next : {large, whole, added}) require_compiled_anew(next);
 }
 
-TEST_CASE("what cannot be is refused with the place, and changes nothing") {
+TEST_CASE("what cannot be is refused with the place, and changes nothing", "[promise:edits]") {
     const Model model = wheels();
     Edit edit(model);
     CHECK(refusal([&] { edit.set_matrix("/all/weel/hub.r", identity); }).find("'all' has no member 'weel'") !=
@@ -288,7 +288,7 @@ TEST_CASE("what cannot be is refused with the place, and changes nothing") {
     require_same_models(edit.commit(), model);
 }
 
-TEST_CASE("after random edits a model is the one that is compiled from the edited scene") {
+TEST_CASE("after random edits a model is the one that is compiled from the edited scene", "[promise:edits]") {
     std::vector<std::pair<Scene, std::vector<std::string>>> scenes;
     for (const std::string& file : test::scene_files())
         scenes.emplace_back(load_scene(file), std::vector<std::string>());
@@ -344,7 +344,7 @@ TEST_CASE("the same on BRL-CAD's models: 500 edits", "[.long]") {
     CHECK(commits >= test::tries(500));
 }
 
-TEST_CASE("three threads draw, pick and edit at once, without a lock") {
+TEST_CASE("three threads draw, pick and edit at once, without a lock", "[promise:edits]") {
     Renderer renderer(wheels(), test::on_native_device());
     std::atomic<bool> stop{false};
     std::atomic<int> pictures{0}, picks{0};

@@ -36,7 +36,7 @@ void require_redrawn(Renderer& renderer, Framebuffer& framebuffer, const View& v
 
 }  // namespace
 
-TEST_CASE("a framebuffer holds the last frame alone") {
+TEST_CASE("a framebuffer holds the last frame alone", "[promise:models]") {
     Scene scene = bench::scene_of_parts(20);
     Renderer renderer(scene, {}, test::on_device());
     Settings by_reference;
@@ -96,7 +96,8 @@ TEST_CASE("a framebuffer holds the last frame alone") {
     }
 }
 
-TEST_CASE("a framebuffer with memory for a few rays at a time, and after frames that were stopped") {
+TEST_CASE("a framebuffer with memory for a few rays at a time, and after frames that were stopped",
+          "[promise:models][promise:interrupts]") {
     const Scene scene = bench::scene_of_parts(20);
     Renderer renderer(scene, {}, test::on_device());
     renderer.render({.width = 8, .height = 8, .camera = {}, .every_partition = false});

@@ -43,7 +43,7 @@ TEST_CASE("a channel is found by its name, and is the picture's own memory", "[i
     CHECK_FALSE(Image{}.has_channel(""));
 }
 
-TEST_CASE("a channel that the picture has not is an error that names those it has", "[image]") {
+TEST_CASE("a channel that the picture has not is an error that names those it has", "[image][promise:pictures]") {
     const Image image = two_channels(), empty;
     try {
         image.channel("depth");

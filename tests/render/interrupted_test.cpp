@@ -39,7 +39,8 @@ bool is_interrupted(const Call& call) {
 
 }  // namespace
 
-TEST_CASE("a frame and a list of rays: progress ends them before they begin, and keeps what is finished") {
+TEST_CASE("a frame and a list of rays: progress ends them before they begin, and keeps what is finished",
+          "[promise:interrupts]") {
     const bool reference = GENERATE(false, true), every = GENERATE(false, true);
     const Scene scene = bench::scene_of_parts(20);
     Renderer plain(scene, {}, settings_for(reference));
@@ -83,7 +84,8 @@ TEST_CASE("a frame and a list of rays: progress ends them before they begin, and
     }
 }
 
-TEST_CASE("a native kernel leaves out the work-items that have not begun when it is to end", "[device]") {
+TEST_CASE("a native kernel leaves out the work-items that have not begun when it is to end",
+          "[device][promise:interrupts]") {
     const auto found = find_devices().devices;
     const auto native = std::ranges::find_if(found, [](const FoundDevice& f) { return is_native(f.info); });
     if (native == found.end()) return;

@@ -40,7 +40,7 @@ OpenCl counting() {
 
 }  // namespace
 
-TEST_CASE("a renderer that takes model after model answers as one that is made for each") {
+TEST_CASE("a renderer that takes model after model answers as one that is made for each", "[promise:models]") {
     const bool by_functions = GENERATE(false, true);
     const OpenCl functions = counting();
     const NativeTable table(by_functions ? &functions : &native::functions());
@@ -66,7 +66,7 @@ TEST_CASE("a renderer that takes model after model answers as one that is made f
         }
 }
 
-TEST_CASE("a renderer compiles no programs for a model that those at hand can draw") {
+TEST_CASE("a renderer compiles no programs for a model that those at hand can draw", "[promise:models]") {
     const OpenCl functions = counting();
     const NativeTable table(&functions);
     Renderer renderer(Model(test::deep_parts(2, 40, 10)), test::on_native_device());
@@ -82,7 +82,7 @@ TEST_CASE("a renderer compiles no programs for a model that those at hand can dr
     CHECK(programs == before);
 }
 
-TEST_CASE("several renderers share one model, also on the reference") {
+TEST_CASE("several renderers share one model, also on the reference", "[promise:models]") {
     const Model model(test::deep_parts(2, 40, 10));
     Renderer device(model, test::on_device()), reference(model, {.reference = true});
     test::require_same(device.render(small_view()), reference.render(small_view()));
@@ -92,7 +92,7 @@ TEST_CASE("several renderers share one model, also on the reference") {
     test::require_same(device.render(small_view()), reference.render(small_view()));
 }
 
-TEST_CASE("a model that does not fit leaves the renderer to the others") {
+TEST_CASE("a model that does not fit leaves the renderer to the others", "[promise:models]") {
     const Model small(test::nested_balls(3, {Operator::difference}, test::Form::left)),
         large(test::deep_parts(2, 20'000, 5'000));
     Settings settings = test::on_native_device();
@@ -110,7 +110,7 @@ TEST_CASE("a model that does not fit leaves the renderer to the others") {
     test::require_same(renderer.render(small_view()), before);
 }
 
-TEST_CASE("a pick is what the picture shows at the pixel, and what its ray meets") {
+TEST_CASE("a pick is what the picture shows at the pixel, and what its ray meets", "[promise:lists]") {
     const every_solid::EverySolid every(test::sanitized ? 1 : 2);
     std::vector<Scene> all = scenes();
     all.push_back(every.scene);
@@ -141,7 +141,7 @@ TEST_CASE("a pick is what the picture shows at the pixel, and what its ray meets
     CHECK_THROWS_AS(Model(every.scene).pick(small_view(), 64, 0), Error);
 }
 
-TEST_CASE("a model answers rays on the threads that ask, with a renderer's bits") {
+TEST_CASE("a model answers rays on the threads that ask, with a renderer's bits", "[promise:models][promise:lists]") {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     const auto check = [](const Model& model, const std::vector<Ray>& rays) {
         Renderer renderer(model, {.reference = true});

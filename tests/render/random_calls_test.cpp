@@ -183,7 +183,9 @@ void make(int calls, std::uint64_t seed) {
 
 }  // namespace
 
-TEST_CASE("calls in random order answer as the first one does, or throw an Error") { make(test::tries(400), 1); }
+TEST_CASE("calls in random order answer as the first one does, or throw an Error", "[promise:models]") {
+    make(test::tries(400), 1);
+}
 TEST_CASE("100,000 calls in random order", "[.long]") {
     for (std::uint64_t seed = 2; seed < 102; ++seed) make(1000, seed);
 }

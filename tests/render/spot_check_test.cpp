@@ -29,7 +29,7 @@ View view_of(bool every_partition) {
 
 }  // namespace
 
-TEST_CASE("a device that draws right passes every check, with every solid") {
+TEST_CASE("a device that draws right passes every check, with every solid", "[promise:verify]") {
     if (find_native_devices().empty()) return;
     for (const std::string& file : test::scene_files()) {
         INFO(file);
@@ -39,7 +39,8 @@ TEST_CASE("a device that draws right passes every check, with every solid") {
     }
 }
 
-TEST_CASE("a bit that a device gets wrong is found where the batch is checked, and told with its place") {
+TEST_CASE("a bit that a device gets wrong is found where the batch is checked, and told with its place",
+          "[promise:verify]") {
     if (find_native_devices().empty()) return;
     FaultyOpenCl faulty(native::functions());
     const NativeTable table(&faulty.functions());

@@ -30,7 +30,8 @@ TEST_CASE("a call's time and the building of its kernels are told apart") {
 
 TEST_CASE(
     "segments and partitions are counted where every partition is computed, also on the rays of first hits that need "
-    "it") {
+    "it",
+    "[promise:pictures]") {
     Renderer renderer(bench::scene_of_parts(20), {}, test::on_device());
     View view;
     view.width = view.height = 32;

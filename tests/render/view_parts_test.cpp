@@ -59,7 +59,7 @@ std::vector<Plane> random_planes(const Box& box, std::size_t count, std::mt19937
 
 }  // namespace
 
-TEST_CASE("a part of a picture has the whole picture's pixels, to the last bit") {
+TEST_CASE("a part of a picture has the whole picture's pixels, to the last bit", "[promise:views]") {
     for (const Scene& scene : scenes())
         on_all(scene, [](Renderer& renderer, View view) {
             const Image whole = renderer.render(view);
@@ -81,7 +81,7 @@ TEST_CASE("a part of a picture has the whole picture's pixels, to the last bit")
                           "the part of a picture must lie in it");
 }
 
-TEST_CASE("a picture that is drawn coarsely first is the same in the end") {
+TEST_CASE("a picture that is drawn coarsely first is the same in the end", "[promise:views]") {
     for (const Scene& scene : scenes())
         on_all(scene, [](Renderer& renderer, const View& view) {
             const Image whole = renderer.render(view);
@@ -109,7 +109,7 @@ TEST_CASE("a picture that is drawn coarsely first is the same in the end") {
         });
 }
 
-TEST_CASE("bytes for a display are those that display_pixels makes") {
+TEST_CASE("bytes for a display are those that display_pixels makes", "[promise:pictures]") {
     for (const Scene& scene : scenes())
         for (const bool display_shading : {false, true}) {
             Settings settings = test::on_native_device();
@@ -176,7 +176,8 @@ TEST_CASE("several rays a pixel: the mean of their colours, and all else of the 
         CHECK_THROWS_WITH(native.render({.samples = wrong}), "a pixel has 1 to 256 samples");
 }
 
-TEST_CASE("planes cut pictures open: a pixel shows the first partition of its ray that is before them all") {
+TEST_CASE("planes cut pictures open: a pixel shows the first partition of its ray that is before them all",
+          "[promise:views]") {
     std::mt19937 random(6);
     std::size_t compared = 0, skipped = 0;
     for (const Scene& scene : scenes()) {

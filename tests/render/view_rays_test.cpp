@@ -47,7 +47,8 @@ double shown_height(const Renderer& renderer, View view) {
 
 }  // namespace
 
-TEST_CASE("rays of a view go through the centres of pixels, from the top left, seen as azimuth and elevation say") {
+TEST_CASE("rays of a view go through the centres of pixels, from the top left, seen as azimuth and elevation say",
+          "[promise:views]") {
     const Vec3 middle{1, 2, 3};
     Renderer renderer(scene_of(box({-3, -2, -1}, {5, 6, 7})), {}, on_reference());
     struct {
@@ -86,7 +87,8 @@ TEST_CASE("rays of a view go through the centres of pixels, from the top left, s
     }
 }
 
-TEST_CASE("a view shows the model's box, its sides moved outward to whole millimetres, whatever tree it comes from") {
+TEST_CASE("a view shows the model's box, its sides moved outward to whole millimetres, whatever tree it comes from",
+          "[promise:views]") {
     const auto height = [](const Renderer& renderer) { return shown_height(renderer, looking(30, 20, 3, 2)); };
     const auto height_of = [&](Shape shape) {
         return height(Renderer(scene_of(std::move(shape)), {}, on_reference()));
@@ -119,7 +121,7 @@ TEST_CASE("a view shows the model's box, its sides moved outward to whole millim
         CHECK(height(Renderer(scene, {name}, on_reference())) == Approx(8 * std::sqrt(3)));
 }
 
-TEST_CASE("a picture has 1 to 32,768 pixels each way") {
+TEST_CASE("a picture has 1 to 32,768 pixels each way", "[promise:views]") {
     Renderer renderer(scene_of(ball({0, 0, 0}, 1)), {}, on_reference());
     CHECK(renderer.model().grid_of(looking(0, 0, 32'768, 1)).rays().size() == 32'768);
     const Image image = renderer.render(looking(0, 0, 1, 1));
@@ -135,7 +137,7 @@ TEST_CASE("a picture has 1 to 32,768 pixels each way") {
     }
 }
 
-TEST_CASE("a picture has the groups of channels that are wanted, in their order") {
+TEST_CASE("a picture has the groups of channels that are wanted, in their order", "[promise:pictures]") {
     Renderer renderer(scene_of(ball({0, 0, 0}, 1)), {}, on_reference());
     const std::pair<std::uint32_t, std::vector<std::string>> groups[] = {
         {channel::color, {"R", "G", "B", "A"}},

@@ -19,7 +19,7 @@ TEST_CASE("error text: excerpt and suggestion stand on lines of their own") {
     CHECK(format(diagnostic) == "f:1:2: is wrong\n    ab\n     ^\n  mend it\n  soon");
 }
 
-TEST_CASE("error text: what() holds every finding") {
+TEST_CASE("error text: what() holds every finding", "[promise:refusals]") {
     const Error error(Status::scene, std::vector<Diagnostic>{{{}, "first", "", ""}, {{}, "second", "", ""}});
     CHECK(error.what() == std::string("first\nsecond"));
     CHECK(error.status() == Status::scene);

@@ -12,13 +12,13 @@ TEST_CASE("scene model: objects are found by name") {
     CHECK(scene.find("c") == nullptr);
 }
 
-TEST_CASE("scene model: a shape has BRL-CAD's name") {
+TEST_CASE("scene model: a shape has BRL-CAD's name", "[promise:shoot]") {
     CHECK(type_name(Shape(Ell{})) == std::string("ell"));
     CHECK(type_name(Shape(Half{})) == std::string("half"));
     CHECK(type_name(Shape(Unsupported{"pipe"})) == std::string("pipe"));
 }
 
-TEST_CASE("scene model: what no combination uses is on top, in the order of the file") {
+TEST_CASE("scene model: what no combination uses is on top, in the order of the file", "[promise:scenes]") {
     Scene scene = make_scene(
         {ball("z"), ball("a"), combination("c", union_of({"a"})), combination("b", union_of({"c", "gone"}))});
     CHECK(top_objects(scene) == std::vector<std::string>{"z", "b"});

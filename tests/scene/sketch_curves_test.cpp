@@ -36,7 +36,8 @@ CurvePoint middle_of(const CurvePiece& piece) {
 
 }  // namespace
 
-TEST_CASE("sketches: arcs lie on their circles, on the right side, in pieces of at most a quarter") {
+TEST_CASE("sketches: arcs lie on their circles, on the right side, in pieces of at most a quarter",
+          "[promise:scenes]") {
     for (const bool left : {false, true})
         for (const bool clockwise : {false, true})
             for (const double radius : {1.0, 1.25, 7.0, 1e7}) {
@@ -99,7 +100,7 @@ TEST_CASE("sketches: gaps that BRL-CAD does not see are closed, others are repor
     CHECK(loose_ends(curve_pieces(gap)).empty());
 }
 
-TEST_CASE("sketches: profiles are joined to the axis, and may not cross it") {
+TEST_CASE("sketches: profiles are joined to the axis, and may not cross it", "[promise:scenes]") {
     const auto turned = [](Sketch sketch) { return Revolve{{0, 0, 0}, {0, 0, 2}, {3, 0, 0}, 1, std::move(sketch)}; };
     const Sketch open = with({Sketch::Line{1, 2}});
     CHECK(solid_faults(turned(open)).empty());

@@ -19,7 +19,7 @@ Partition partition(std::uint32_t region, double from, double to) { return {from
 
 }  // namespace
 
-TEST_CASE("partitions and gaps shorter than the tolerance do not count, in millimetres") {
+TEST_CASE("partitions and gaps shorter than the tolerance do not count, in millimetres", "[promise:verify]") {
     const std::vector<Partition> all = {partition(1, 0, 10), partition(2, 10, 10.25), partition(1, 10.25, 20)};
     const std::vector<Partition> kept = that_count(all, blur);  // the direction is two millimetres long
     REQUIRE(kept.size() == 1);
@@ -107,7 +107,7 @@ TEST_CASE("a difference leaves out what both have before and behind it") {
     CHECK(twice.found.empty());
 }
 
-TEST_CASE("every bit of a ray's answer is compared") {
+TEST_CASE("every bit of a ray's answer is compared", "[promise:verify]") {
     csgrt::RayPartitions a{{partition(1, 0, 1)}, {{0, 1, {1, 2}}}};
     CHECK(identical(a, a));
     const auto differs = [&](auto change) {

@@ -27,7 +27,7 @@ bool same(const Ray& a, const Ray& b) { return a.origin == b.origin && a.directi
 
 }  // namespace
 
-TEST_CASE("a sample is half a view and half random, and the seed decides it") {
+TEST_CASE("a sample is half a view and half random, and the seed decides it", "[promise:verify]") {
     const Scene scene = ball({0, 0, 0});
     const Verifier verifier(scene, {}, on_reference());
     const std::vector<Ray> rays = verifier.sample(scene.camera, 50, 7);
@@ -55,7 +55,7 @@ TEST_CASE("what ends where the ray starts may be there or not") {
     CHECK(verifier.result().passed());
 }
 
-TEST_CASE("what is shot in parts adds up") {
+TEST_CASE("what is shot in parts adds up", "[promise:verify]") {
     const Scene scene = ball({7e7 + 0.3, -7e7 - 0.7, 1e7});
     const Settings settings = with_methods({.single_world = true}, on_reference());
     Verifier whole(scene, {}, settings), parts(scene, {}, settings);
@@ -86,7 +86,7 @@ TEST_CASE("what is shot in parts adds up") {
     }
 }
 
-TEST_CASE("distances are measured in what rounding must be expected to do") {
+TEST_CASE("distances are measured in what rounding must be expected to do", "[promise:verify]") {
     const Scene scene = ball({0, 0, 0});
     Settings settings = on_reference();
     Verifier twice(scene, {}, settings);
@@ -102,7 +102,7 @@ TEST_CASE("distances are measured in what rounding must be expected to do") {
     CHECK(once.result().farthest.millimetres < 1e-3);
 }
 
-TEST_CASE("what cannot be judged is refused, and progress can stop it") {
+TEST_CASE("what cannot be judged is refused, and progress can stop it", "[promise:verify]") {
     const Scene scene = ball({0, 0, 0});
     Settings settings = on_reference();
     settings.precision = Precision::quad;

@@ -143,7 +143,7 @@ void send_to(int port, const std::string& text, Random& random) {
 
 }  // namespace
 
-TEST_CASE("view: requests at random do no harm", "[.requests]") {
+TEST_CASE("view: requests at random do no harm", "[.requests][promise:page][promise:untrusted]") {
     const char* const wanted = std::getenv("CSGRT_REQUESTS");
     const int count = wanted ? std::atoi(wanted) : 3000;
     const PageClient page(Model(load_scene(std::getenv("CSGRT_SCENES") + std::string("/operators.json"))));

@@ -118,7 +118,7 @@ TEST_CASE("view: a scene's camera by its eye is shown from there", "[view]") {
     }
 }
 
-TEST_CASE("view: a pick tells what Model::pick does, and the command that repeats it", "[view]") {
+TEST_CASE("view: a pick tells what Model::pick does, and the command that repeats it", "[view][promise:page]") {
     const Model model = operators();
     const std::string scene = std::getenv("CSGRT_SCENES") + std::string("/operators.json");
     const PageClient page(model, {.command = scene});
@@ -166,7 +166,7 @@ TEST_CASE("view: a pick tells what Model::pick does, and the command that repeat
     CHECK(after["partitions"] == before["partitions"]);
 }
 
-TEST_CASE("view: the command draws the page's picture", "[view]") {
+TEST_CASE("view: the command draws the page's picture", "[view][promise:page]") {
     const std::string scene = std::getenv("CSGRT_SCENES") + std::string("/operators.json");
     const Precision precision = GENERATE(Precision::double_, Precision::single);
     const Settings settings{.reference = precision == Precision::single, .precision = precision};
@@ -207,7 +207,7 @@ TEST_CASE("view: a slice and an EXR are those of Model and Renderer", "[view]") 
     CHECK(read.channels == renderer.render(view_of(request["view"])).channels);
 }
 
-TEST_CASE("view: what is no colour is shown, too, and a ghost has an outline", "[view]") {
+TEST_CASE("view: what is no colour is shown, too, and a ghost has an outline", "[view][promise:page]") {
     const Model model = Model(load_scene(std::getenv("CSGRT_SCENES") + std::string("/overlap.json")));
     const PageClient page(model);
     json view = page.ask("model")["view"];
@@ -265,7 +265,7 @@ TEST_CASE("view: the frame of a client that is gone ends", "[view]") {
     CHECK(std::chrono::steady_clock::now() - start < std::chrono::seconds(20));  // the frame takes minutes
 }
 
-TEST_CASE("view: run ends while a frame is drawn, and at the button", "[view]") {
+TEST_CASE("view: run ends while a frame is drawn, and at the button", "[view][promise:page]") {
     auto page = std::make_unique<PageClient>(operators());
     const json slow = {{"view", page->ask("model")["view"]}, {"width", 4096}, {"height", 4096}, {"samples", 256}};
     json answer;
@@ -279,7 +279,7 @@ TEST_CASE("view: run ends while a frame is drawn, and at the button", "[view]") 
     CHECK(std::chrono::steady_clock::now() - start < std::chrono::seconds(20));  // the frame takes minutes
 }
 
-TEST_CASE("view: a changed file is seen, and one that does not load leaves the old model", "[view]") {
+TEST_CASE("view: a changed file is seen, and one that does not load leaves the old model", "[view][promise:page]") {
     Folder folder;
     const std::string file = folder / "scene.json";
     std::filesystem::copy_file(std::getenv("CSGRT_SCENES") + std::string("/operators.json"), file);
@@ -367,7 +367,7 @@ TEST_CASE("view: wrong requests are refused with a sentence that names the membe
     CHECK_THAT(page.frame(request).head["error"].get<std::string>(), Contains("perspective"));
 }
 
-TEST_CASE("view: nobody else gets in", "[view]") {
+TEST_CASE("view: nobody else gets in", "[view][promise:page]") {
     const PageClient page(operators());
     const std::string port = page.host().substr(page.host().rfind(':'));
     const auto status = [&](const std::string& path, const Headers& headers) {

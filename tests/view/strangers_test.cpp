@@ -101,7 +101,7 @@ std::string deep(std::size_t levels) {
 
 }  // namespace
 
-TEST_CASE("view: heads and bodies without end are refused, and take no memory", "[view]") {
+TEST_CASE("view: heads and bodies without end are refused, and take no memory", "[view][promise:page]") {
     NEEDS_COMMAND();
     const ViewProcess view;
     REQUIRE(view.is_up());
@@ -132,7 +132,7 @@ TEST_CASE("view: heads and bodies without end are refused, and take no memory", 
     CHECK(view.status() == 200);
 }
 
-TEST_CASE("view: JSON that is nested without end is refused", "[view]") {
+TEST_CASE("view: JSON that is nested without end is refused", "[view][promise:page]") {
     NEEDS_COMMAND();
     const ViewProcess view;
     REQUIRE(view.is_up());
@@ -146,7 +146,7 @@ TEST_CASE("view: JSON that is nested without end is refused", "[view]") {
     CHECK(view.status() == 200);
 }
 
-TEST_CASE("view: however many strangers are slow, the owner is answered", "[view]") {
+TEST_CASE("view: however many strangers are slow, the owner is answered", "[view][promise:page]") {
     NEEDS_COMMAND();
     const ViewProcess view;
     REQUIRE(view.is_up());
@@ -170,7 +170,8 @@ TEST_CASE("view: however many strangers are slow, the owner is answered", "[view
     CHECK(Clock::now() - start < 15s);
 }
 
-TEST_CASE("view: 2,000 requests that are forged, slow, deep, endless or cut, among 200 strangers", "[view]") {
+TEST_CASE("view: 2,000 requests that are forged, slow, deep, endless or cut, among 200 strangers",
+          "[view][promise:page]") {
     NEEDS_COMMAND();
     const ViewProcess view;
     REQUIRE(view.is_up());
@@ -220,7 +221,7 @@ TEST_CASE("view: 2,000 requests that are forged, slow, deep, endless or cut, amo
     CHECK(is_within(view, before, 64));
 }
 
-TEST_CASE("view: 64 pages that poll, and 64 that wait for frames, leave a 65th its turn", "[view]") {
+TEST_CASE("view: 64 pages that poll, and 64 that wait for frames, leave a 65th its turn", "[view][promise:page]") {
     NEEDS_COMMAND();
     const ViewProcess view;
     REQUIRE(view.is_up());
@@ -235,7 +236,7 @@ TEST_CASE("view: 64 pages that poll, and 64 that wait for frames, leave a 65th i
     for (HttpConnection& page : pages) CHECK(page.receive()->body.size() > 96 * 96 * 4);
 }
 
-TEST_CASE("view: pages that wait for large frames share memory", "[view]") {
+TEST_CASE("view: pages that wait for large frames share memory", "[view][promise:page]") {
     NEEDS_COMMAND();
     const ViewProcess view;
     REQUIRE(view.is_up());
@@ -260,7 +261,7 @@ TEST_CASE("view: pages that wait for large frames share memory", "[view]") {
 #endif
 }
 
-TEST_CASE("view: an export ends when its page leaves, and at a signal", "[view]") {
+TEST_CASE("view: an export ends when its page leaves, and at a signal", "[view][promise:page]") {
     NEEDS_COMMAND();
     for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
         ViewProcess view;
@@ -281,7 +282,7 @@ TEST_CASE("view: an export ends when its page leaves, and at a signal", "[view]"
     }
 }
 
-TEST_CASE("view: the browser gets the address by a file that nobody else can read", "[view]") {
+TEST_CASE("view: the browser gets the address by a file that nobody else can read", "[view][promise:page]") {
     NEEDS_COMMAND();
     const Folder folder;
     const std::string program = folder.write("xdg-open",
@@ -308,7 +309,7 @@ TEST_CASE("view: the browser gets the address by a file that nobody else can rea
     CHECK(!fs::exists(arguments));
 }
 
-TEST_CASE("view: with all interfaces, the address can be opened, and others are told of", "[view]") {
+TEST_CASE("view: with all interfaces, the address can be opened, and others are told of", "[view][promise:page]") {
     NEEDS_COMMAND();
     const ViewProcess view({"--address", "0.0.0.0"});
     REQUIRE(view.is_up());
@@ -319,7 +320,8 @@ TEST_CASE("view: with all interfaces, the address can be opened, and others are 
     CHECK(own.printed_errors() == "");
 }
 
-TEST_CASE("view: a thread that is not to be had: the page answers all the same, or csgrt says so", "[view]") {
+TEST_CASE("view: a thread that is not to be had: the page answers all the same, or csgrt says so",
+          "[view][promise:page]") {
     NEEDS_COMMAND();
     const char* library = std::getenv("CSGRT_FAIL_LIBRARY");
     if (library == nullptr) {

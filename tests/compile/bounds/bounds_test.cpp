@@ -171,7 +171,7 @@ TEST_CASE("an arb with a twisted face reaches as far as its planes do, which may
     CHECK(in_solid > 1000);
 }
 
-TEST_CASE("faces: arb8 to arb4, degenerate corners dropped, normals outward under mirrors") {
+TEST_CASE("faces: arb8 to arb4, degenerate corners dropped, normals outward under mirrors", "[promise:solids]") {
     const Matrix mirror = {-1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
     const Vec3 o{0, 0, 0}, x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1}, xy{1, 1, 0};
     const Arb box = block_shape({0, 0, 0}, {1, 1, 1});

@@ -58,14 +58,14 @@ Lines terms(std::vector<TreeNode> nodes) { return regions_of(alphabet({group("to
 
 }  // namespace
 
-TEST_CASE("a region ends the search: regions below it are part of its tree") {
+TEST_CASE("a region ends the search: regions below it are part of its tree", "[promise:scenes]") {
     const Scene s =
         alphabet({region("outer", {leg("A"), leg("B"), less}), group("all", {leg("outer"), leg("C"), either})});
     CHECK(regions_of(s, {"all"}) == Lines{"/all/outer: a b -", "/all/C: c"});
     CHECK(regions_of(s, {"outer"}) == Lines{"/outer: a b -"});
 }
 
-TEST_CASE("solids outside all regions are regions of their own") {
+TEST_CASE("solids outside all regions are regions of their own", "[promise:scenes]") {
     const Scene s = alphabet({group("g", {leg("a"), leg("B"), either}), group("all", {leg("g"), leg("c"), either})});
     const FlatScene flat = flatten(s, {"all", "d"}, false);
     REQUIRE(flat.regions.size() == 4);
@@ -81,7 +81,7 @@ TEST_CASE("regions come in the order of the walk, left to right, object by objec
     CHECK(regions_of(s, {"h", "g", "D"}) == Lines{"/h/F: f", "/g/C: c", "/g/B: b", "/g/A: a", "/D: d"});
 }
 
-TEST_CASE("operators above regions: unions are pulled up, the leftmost region gives its name") {
+TEST_CASE("operators above regions: unions are pulled up, the leftmost region gives its name", "[promise:scenes]") {
     CHECK(terms({leg("A"), leg("B"), less}) == Lines{"/top/A: a b -"});
     CHECK(terms({leg("A"), leg("B"), both}) == Lines{"/top/A: a b +"});
     CHECK(terms({leg("A"), leg("B"), either, leg("C"), less}) == Lines{"/top/A: a c -", "/top/B: b c -"});
@@ -120,7 +120,7 @@ TEST_CASE("a term's attributes are those of its leftmost region") {
     CHECK(flat.regions[0].info.color == Vec3{1, 0, 0});
 }
 
-TEST_CASE("air regions are left out, with a note, unless they are wanted") {
+TEST_CASE("air regions are left out, with a note, unless they are wanted", "[promise:scenes]") {
     Scene s = alphabet({group("top", {leg("A"), leg("B"), either, leg("C"), less})});
     std::get<Combination>(s.objects[3]).air = 2;  // B
     const FlatScene flat = flatten(s, {"top"}, false);
@@ -175,7 +175,7 @@ TEST_CASE("an object that is named twice is rendered once") {
     CHECK(flat.warnings[0].reason.find("named twice") != std::string::npos);
 }
 
-TEST_CASE("a region must not contain the empty space") {
+TEST_CASE("a region must not contain the empty space", "[promise:scenes]") {
     const Scene s = alphabet({region("out", {leg("a"), not_}), region("most", {leg("a"), leg("b"), not_, either}),
                               region("fine", {leg("a"), leg("b"), not_, both}), group("none", {}),
                               region("all", {leg("none"), not_}),
@@ -210,7 +210,7 @@ TEST_CASE("one solid in one place is one instance, whoever uses it") {
     CHECK(flat.regions[3].tree.nodes[0].solid == 0);
 }
 
-TEST_CASE("matrices multiply in the order of the path") {
+TEST_CASE("matrices multiply in the order of the path", "[promise:scenes]") {
     const Matrix scale = {2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 1};
     const Scene s = scene({ball("a"), group("g", {leg("a", moved(1, 2, 3))}), region("r", {leg("g", scale)}),
                            group("top", {leg("r", turned(std::acos(0.0)))})});
@@ -221,7 +221,7 @@ TEST_CASE("matrices multiply in the order of the path") {
     CHECK(near(m[11], 6));
 }
 
-TEST_CASE("colour and finish come from above only where they are to be inherited") {
+TEST_CASE("colour and finish come from above only where they are to be inherited", "[promise:scenes]") {
     const Vec3 red{1, 0, 0}, green{0, 1, 0}, blue{0, 0, 1}, white{1, 1, 1};
     Finish glass;
     glass.shader = "glass";
@@ -259,7 +259,7 @@ TEST_CASE("combinations below a region do not change its colour") {
     CHECK(flatten(s, {"r"}, false).regions.at(0).info.color == Vec3{1, 1, 1});
 }
 
-TEST_CASE("the colour table colours regions by id that have no colour") {
+TEST_CASE("the colour table colours regions by id that have no colour", "[promise:scenes]") {
     Scene s = scene({ball("a"), region("r", {leg("a")}, 5), region("q", {leg("a")}, 9)});
     s.region_colors = {{1, 4, {1, 0, 0}}, {5, 5, {0, 1, 0}}, {5, 9, {0, 0, 1}}};
     const auto color = [&](const char* name) { return flatten(s, {name}, false).regions.at(0).info.color; };

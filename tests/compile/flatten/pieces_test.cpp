@@ -111,7 +111,7 @@ void check_pipe(const Pipe& pipe, std::uint32_t seed) {
 
 }  // namespace
 
-TEST_CASE("pipes: cones and bends, solid, hollow, tapered, straight") {
+TEST_CASE("pipes: cones and bends, solid, hollow, tapered, straight", "[promise:solids]") {
     check_pipe({{{{-75, -60, 75}, 22, 0, 35},
                  {{60, -60, 75}, 22, 0, 35},
                  {{60, 60, 75}, 22, 0, 35},
@@ -128,7 +128,7 @@ TEST_CASE("pipes: cones and bends, solid, hollow, tapered, straight") {
     check_pipe({{{{0, 0, 0}, 10, 0, 0}, {{0, 0, 80}, 20, 6, 0}}}, 4);
 }
 
-TEST_CASE("a cline is a cylinder, with a bore if it has a thickness") {
+TEST_CASE("a cline is a cylinder, with a bore if it has a thickness", "[promise:solids]") {
     for (const double thickness : {0.0, 3.0}) {
         Scene scene;
         scene.objects = {Solid{"line", Cline{{0, 0, -40}, {0, 0, 80}, 18, thickness}, {}}};

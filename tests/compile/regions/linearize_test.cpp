@@ -230,7 +230,8 @@ TEST_CASE("unions of unions are unions of solids, and so are complements that ca
     CHECK(std::all_of(words.begin(), words.end(), is_union));
 }
 
-TEST_CASE("random trees: the walk over the words gives what the tree gives, for every assignment") {
+TEST_CASE("random trees: the walk over the words gives what the tree gives, for every assignment",
+          "[promise:booleans]") {
     Random random(1);
     int complements = 0;
     constexpr int rounds = test::tries(3000);

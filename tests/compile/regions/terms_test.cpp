@@ -49,7 +49,7 @@ bool value_of(const FlatTree& tree, const std::vector<bool>& covered) {
 
 }  // namespace
 
-TEST_CASE("a term's value is its tree's, whether it is scanned, walked or told by roles") {
+TEST_CASE("a term's value is its tree's, whether it is scanned, walked or told by roles", "[promise:booleans]") {
     Random random;
     std::size_t held = 0, not_held = 0, held_by_roles = 0, not_held_by_roles = 0;
     for (int round = 0; round < 400; ++round) {

@@ -60,7 +60,7 @@ TEST_CASE("arbs with a face that is not flat stay half-spaces") {
     CHECK(type_of(twisted) == SOLID_MESH);
 }
 
-TEST_CASE("arbs with a flat face that crosses itself are refused by name") {
+TEST_CASE("arbs with a flat face that crosses itself are refused by name", "[promise:refusals]") {
     Arb crossed = block_shape({0, 0, 0}, {4, 2, 3});
     CHECK(solid_faults(crossed).empty());
     std::swap(crossed.vertices[2], crossed.vertices[3]);

@@ -55,7 +55,8 @@ TEST_CASE("a sound bot stays as it is, without a word") {
     }
 }
 
-TEST_CASE("faces given before do not count again, whatever their vertices' numbers and their winding") {
+TEST_CASE("faces given before do not count again, whatever their vertices' numbers and their winding",
+          "[promise:databases]") {
     Bot bot = tetrahedron();
     bot.faces.push_back({2, 1, 3});
     bot.vertices.push_back({0, -0.0, 0});
@@ -89,7 +90,7 @@ TEST_CASE("both sides of a sheet enclose nothing") {
     CHECK(mended.mesh.faces == tetrahedron().faces);
 }
 
-TEST_CASE("faces without an area do not count; the one that closes a gap stays") {
+TEST_CASE("faces without an area do not count; the one that closes a gap stays", "[promise:databases]") {
     Bot bot = tetrahedron();
     bot.faces.insert(bot.faces.end(), {{1, 1, 2}, {3, 3, 3}});
     CHECK(mend(bot).notes == Notes{"2 faces have no area and count for nothing"});
@@ -104,7 +105,7 @@ TEST_CASE("faces without an area do not count; the one that closes a gap stays")
     CHECK(mended.mesh.faces.size() == 6);
 }
 
-TEST_CASE("a face is cut at a vertex in the middle of its edge, where that closes the surface") {
+TEST_CASE("a face is cut at a vertex in the middle of its edge, where that closes the surface", "[promise:databases]") {
     Bot bot = tetrahedron();
     bot.vertices.push_back({1, 0, 0});
     bot.vertices.push_back({3, 0, 0});
@@ -129,7 +130,7 @@ TEST_CASE("a face is cut at a vertex in the middle of its edge, where that close
     CHECK(mended.notes == Notes{"2 faces are cut at vertices in the middle of their edges"});
 }
 
-TEST_CASE("winding, gaps and crowded edges are told with counts") {
+TEST_CASE("winding, gaps and crowded edges are told with counts", "[promise:databases]") {
     Bot bot = tetrahedron();
     std::swap(bot.faces[2][0], bot.faces[2][1]);
     CHECK(mend(bot).notes == Notes{"1 face winds against the others; what is inside is told by parity"});

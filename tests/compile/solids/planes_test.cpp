@@ -50,7 +50,8 @@ TEST_CASE("abutting blocks share the plane between them, and those that they are
     }
 }
 
-TEST_CASE("planes are shared in any orientation of the solid, and however the same place was reached") {
+TEST_CASE("planes are shared in any orientation of the solid, and however the same place was reached",
+          "[promise:coincidence]") {
     const double quarter = std::acos(0.0);
     for (int turn = 0; turn < 4; ++turn) {
         // A cube on its place, turned about the middle of another's top; the turned one's own corners come in another
@@ -71,7 +72,7 @@ TEST_CASE("planes are shared in any orientation of the solid, and however the sa
     }
 }
 
-TEST_CASE("a modelled gap is kept, rounding is not") {
+TEST_CASE("a modelled gap is kept, rounding is not", "[promise:coincidence]") {
     const double size = std::sqrt(3.0);  // the diagonal of the smaller block
     for (const double sign : {1.0, -1.0}) {
         for (const auto& [gap, joined] :
@@ -92,7 +93,7 @@ TEST_CASE("a modelled gap is kept, rounding is not") {
     }
 }
 
-TEST_CASE("the later face takes over the earlier record, bit by bit") {
+TEST_CASE("the later face takes over the earlier record, bit by bit", "[promise:coincidence]") {
     PlaneTable table(center, radius);
     const Box box{{0, 0, 0}, {1, 1, 1}};
     CHECK(table.add({{0, 0, 1}, 1}, box) == 0);

@@ -39,7 +39,7 @@ Tgc frustum(const Vec3& p, const Vec3& d, double from, double to, double r_from,
 
 }  // namespace
 
-TEST_CASE("balls of one centre and radius are one, however their axes are turned", "[compile]") {
+TEST_CASE("balls of one centre and radius are one, however their axes are turned", "[compile][promise:coincidence]") {
     const Ell ball{{1, 2, 3}, {5, 0, 0}, {0, 5, 0}, {0, 0, 5}}, turned{{1, 2, 3}, {0, 3, 4}, {0, -4, 3}, {5, 0, 0}};
     CHECK(are_one(ball, turned));
     CHECK_FALSE(are_one(ball, Ell{{1, 2, 3 + 1e-7}, {5, 0, 0}, {0, 5, 0}, {0, 0, 5}}));
@@ -47,7 +47,8 @@ TEST_CASE("balls of one centre and radius are one, however their axes are turned
     CHECK_FALSE(are_one(ball, Ell{{1, 2, 3}, {5, 0, 0}, {0, 5, 0}, {0, 0, 4}}));
 }
 
-TEST_CASE("cylinders and cones of one side are one, whatever their lengths and the way they run", "[compile]") {
+TEST_CASE("cylinders and cones of one side are one, whatever their lengths and the way they run",
+          "[compile][promise:coincidence]") {
     const Vec3 p{3, -1, 2}, d{1, 2, 2}, back{-1, -2, -2};
     CHECK(are_one(frustum(p, d, 0, 10, 2, 2), frustum(p, d, 4, 7, 2, 2)));
     CHECK(are_one(frustum(p, d, 0, 10, 2, 2), frustum(p, back, -30, -20, 2, 2)));
@@ -59,13 +60,13 @@ TEST_CASE("cylinders and cones of one side are one, whatever their lengths and t
     CHECK_FALSE(are_one(frustum(p, d, 0, 10, 2, 2), frustum(p, {2, 1, 2}, 0, 10, 2, 2)));
 }
 
-TEST_CASE("tori of one centre, plane and radii are one", "[compile]") {
+TEST_CASE("tori of one centre, plane and radii are one", "[compile][promise:coincidence]") {
     CHECK(are_one(Tor{{1, 2, 3}, {0, 0, 1}, 5, 2}, Tor{{1, 2, 3}, {0, 0, -4}, 5, 2}));
     CHECK_FALSE(are_one(Tor{{1, 2, 3}, {0, 0, 1}, 5, 2}, Tor{{1, 2, 3}, {0, 0, 1}, 5, 2.0000001}));
     CHECK_FALSE(are_one(Tor{{1, 2, 3}, {0, 0, 1}, 5, 2}, Tor{{1, 2, 3}, {0, 1e-6, 1}, 5, 2}));
 }
 
-TEST_CASE("what shares a side leaves no skin, with no tolerance at all", "[compile]") {
+TEST_CASE("what shares a side leaves no skin, with no tolerance at all", "[compile][promise:coincidence]") {
     const Vec3 p{3, -1, 2}, d{1, 2, 2};
     Scene scene = scene_of({frustum(p, d, 0, 10, 2, 2), frustum(p, d, -1, 11, 2, 2), frustum(p, d, 2, 3, 2, 2)});
     Combination nothing, ring;

@@ -31,7 +31,7 @@ void check_sides(const Arb& arb, double size) {
 
 }  // namespace
 
-TEST_CASE("plates, needles and blocks with one thin edge, of any lean, keep their six sides") {
+TEST_CASE("plates, needles and blocks with one thin edge, of any lean, keep their six sides", "[promise:rounding]") {
     std::mt19937 random(5);
     std::uniform_real_distribution<double> angle(0, 6), side(3, 20), place(-10, 10);
     for (double thin = 1e-2; thin > 2e-10; thin /= 3)

@@ -25,7 +25,7 @@ std::string dsp(const std::string& name, const std::string& file) {
 
 }  // namespace
 
-TEST_CASE("cells: files beside the model", "[asc]") {
+TEST_CASE("cells: files beside the model", "[asc][promise:databases]") {
     const Folder folder;
     folder.write("heights.bin", std::string("\0\1\0\2\1\0\377\377", 8));
     folder.write("cells.u8", "abcdef");

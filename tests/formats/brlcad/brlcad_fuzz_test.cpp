@@ -178,7 +178,9 @@ TEST_CASE("brlcad fuzz: begins of files, whose format the bytes tell") {
     }
 }
 
-TEST_CASE("brlcad fuzz: bytes changed, put in, left out") { fuzz(own_files(), 20261125, test::tries(300)); }
+TEST_CASE("brlcad fuzz: bytes changed, put in, left out", "[promise:untrusted]") {
+    fuzz(own_files(), 20261125, test::tries(300));
+}
 TEST_CASE("brlcad fuzz: 3000 files, of BRL-CAD's models too", "[.long][.fuzz]") {
     fuzz(all_files(), 41, test::tries(3000));
 }

@@ -115,7 +115,7 @@ TEST_CASE("shader light: BRL-CAD's keys and defaults, in both notations") {
     CHECK_FALSE(read_finish("plastic {i 1}").light);
 }
 
-TEST_CASE("one warning for each shader that is drawn as plastic, with how many have it") {
+TEST_CASE("one warning for each shader that is drawn as plastic, with how many have it", "[promise:databases]") {
     Scene scene;
     for (const char* shader :
          {"cloud", "glass tr=.5", "plastic", "cloud {thresh 1}", "light", "light {s 0}", "cloud"}) {

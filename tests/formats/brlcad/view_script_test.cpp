@@ -39,7 +39,7 @@ Vec3 sight(const Camera& camera) {
 
 }  // namespace
 
-TEST_CASE("view script: what saveview writes, with a shell around it") {
+TEST_CASE("view script: what saveview writes, with a shell around it", "[promise:views]") {
     const Camera camera = view_of(
         "#!/bin/sh\nrt -M -P2 -p40 \\\n -o view.pix\\\n $*\\\n 'moss.g'\\\n 'all.g' \\\n 2>> view.log\\\n <<EOF\n"
         "viewsize 2.78032073974600e+02;\n"

@@ -39,7 +39,7 @@ std::map<std::string, std::vector<Expected>> read_expectations(const std::filesy
 
 }  // namespace
 
-TEST_CASE("broken scenes: each gives its findings at their places") {
+TEST_CASE("broken scenes: each gives its findings at their places", "[promise:refusals]") {
     const char* scenes = std::getenv("CSGRT_SCENES");
     if (scenes == nullptr) {
         WARN("CSGRT_SCENES is not set: the broken scenes are not read");

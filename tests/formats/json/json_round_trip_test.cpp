@@ -136,7 +136,7 @@ TEST_CASE("json round trip: friendly solids stay friendly, and others keep their
     CHECK(type(arb({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {0, 1, 1}})) == "arb6");
 }
 
-TEST_CASE("json round trip: every type of solid, in all units") {
+TEST_CASE("json round trip: every type of solid, in all units", "[promise:round-trip]") {
     constexpr std::size_t types = std::variant_size_v<Shape::variant>;
     Numbers n(11);
     for (std::size_t type = 0; type < types; ++type) {
@@ -153,7 +153,7 @@ TEST_CASE("json round trip: every type of solid, in all units") {
     }
 }
 
-TEST_CASE("json round trip: units are kept where that is exact, and named where it is not") {
+TEST_CASE("json round trip: units are kept where that is exact, and named where it is not", "[promise:round-trip]") {
     Scene scene = make_scene({solid("s", sphere({25.4, 0, 0}, 50.8))});
     scene.units = "in";
     scene.unit_length = 25.4;
@@ -177,7 +177,7 @@ TEST_CASE("json round trip: units are kept where that is exact, and named where 
     check_round_trip(scene);
 }
 
-TEST_CASE("json round trip: trees too deep to nest") {
+TEST_CASE("json round trip: trees too deep to nest", "[promise:round-trip]") {
     for (const std::size_t depth : {99U, 100U, 101U, 5000U}) {
         Tree tree{{leaf("a")}};
         for (std::size_t i = 0; i < depth; ++i) {
@@ -233,7 +233,7 @@ TEST_CASE("json round trip: the examples") {
     CHECK(count >= 12);
 }
 
-TEST_CASE("json round trip: BRL-CAD's models") {
+TEST_CASE("json round trip: BRL-CAD's models", "[promise:round-trip]") {
     const std::filesystem::path models = folder("CSGRT_BRLCAD");
     if (models.empty() || !std::filesystem::exists(models)) {
         WARN("CSGRT_BRLCAD is not set: BRL-CAD's models are not read");

@@ -145,7 +145,7 @@ std::string scene_with(const std::string& form, const json& object) {
 
 }  // namespace
 
-TEST_CASE("json schema: the file is what the descriptions make") {
+TEST_CASE("json schema: the file is what the descriptions make", "[promise:scenes]") {
     if (schema_file().empty()) {
         WARN("CSGRT_SCENES is not set: the schema is not read");
         return;
@@ -172,7 +172,7 @@ TEST_CASE("json schema: refers to definitions that are there, to each of them") 
     }
 }
 
-TEST_CASE("json schema: every example of a form is sound") {
+TEST_CASE("json schema: every example of a form is sound", "[promise:scenes]") {
     for (const Form& form : forms()) {
         const auto found = findings_of(scene_with(form.name, sound_example(form.name)));
         INFO(form.name << ": " << (found.empty() ? "" : format(found[0])));
@@ -180,7 +180,7 @@ TEST_CASE("json schema: every example of a form is sound") {
     }
 }
 
-TEST_CASE("json schema: the reader looks at every key of every form") {
+TEST_CASE("json schema: the reader looks at every key of every form", "[promise:scenes]") {
     for (const Form& form : forms()) {
         for (const std::string& key : form.keys) {
             if (key == "$schema") continue;  // for editors
@@ -201,7 +201,7 @@ TEST_CASE("json schema: the reader looks at every key of every form") {
     }
 }
 
-TEST_CASE("json schema: every unit is known") {
+TEST_CASE("json schema: every unit is known", "[promise:scenes]") {
     for (const std::string_view unit : form::units.words) {
         CHECK(findings_of(R"({"csgrt": 1, "units": ")" + std::string(unit) +
                           R"(", "combinations": {"c": {"tree": null}}})")

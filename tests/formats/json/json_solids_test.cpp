@@ -76,7 +76,7 @@ TEST_CASE("json solids: lengths are in the file's unit, shares and directions ar
     CHECK(pipe.points.at(1).inner == 0);
 }
 
-TEST_CASE("json solids: a mesh's thickness is one number, or one a face") {
+TEST_CASE("json solids: a mesh's thickness is one number, or one a face", "[promise:scenes]") {
     const std::string mesh = R"("vertices": [[0, 0, 0], [1, 0, 0], [0, 1, 0]], "faces": [[0, 1, 2], [2, 1, 0]])";
     const Bot volume = read<Bot>(R"({"type": "bot", )" + mesh + "}");
     CHECK(volume.mode == Bot::Mode::volume);
@@ -107,7 +107,7 @@ TEST_CASE("json solids: a face is a loop, or several") {
     CHECK(nmg.faces == std::vector<std::vector<Nmg::Loop>>{{{0, 1, 2}}, {{0, 1, 2, 3}, {4, 5, 6}}, {}, {{}}});
 }
 
-TEST_CASE("json solids: cells are marks or numbers, in rows or not") {
+TEST_CASE("json solids: cells are marks or numbers, in rows or not", "[promise:scenes]") {
     const auto ebm = [](const std::string& cells) {
         return read<Ebm>(R"({"type": "ebm", "width": 3, "depth": 2, "height": 4, "cells": )" + cells + "}");
     };
@@ -131,7 +131,7 @@ TEST_CASE("json solids: cells are marks or numbers, in rows or not") {
     CHECK(contains(complaint(R"({"type": "dsp", "width": 2, "depth": 2, "heights": "#"})"), "from 0 to 65535"));
 }
 
-TEST_CASE("json solids: matrices of cells") {
+TEST_CASE("json solids: matrices of cells", "[promise:scenes]") {
     const std::string matrix = R"("matrix": [2, 0, 0, 5, 0, 3, 0, 6, 0, 0, 4, 7, 0, 0, 0, 1]})";
     // Cells become lengths, and so do steps of height; lengths stay what they are.
     const Matrix counts = {20, 0, 0, 50, 0, 30, 0, 60, 0, 0, 40, 70, 0, 0, 0, 1};
@@ -151,7 +151,7 @@ TEST_CASE("json solids: matrices of cells") {
     CHECK(read<Dsp>(dsp + "}").matrix == Matrix{10, 0, 0, 0, 0, 10, 0, 0, 0, 0, 10, 0, 0, 0, 0, 1});
 }
 
-TEST_CASE("json solids: sketches") {
+TEST_CASE("json solids: sketches", "[promise:scenes]") {
     const Extrude extrude = read<Extrude>(R"({"type": "extrude", "base": [1, 0, 0], "height": [0, 0, 2], "b": [0, 2, 0],
         "sketch": {"vertices": [[1, 2], [3, 4], [5, 6]],
             "curves": [{"line": [0, 1]}, {"circle": [0, 1], "reversed": true},

@@ -24,7 +24,7 @@ std::string one_matrix(const Tree& tree) {
 
 }  // namespace
 
-TEST_CASE("json: settings") {
+TEST_CASE("json: settings", "[promise:scenes]") {
     const Scene scene = scene_of(R"({
         "csgrt": 1, "title": "t", "units": "cm", "ambient": 0.5, "background": [0, 0.5, 1], "tolerance": 0.01,
         "camera": {"azimuth": 1, "elevation": 2, "perspective": 3, "center": [4, 5, 6], "size": 7},
@@ -108,7 +108,7 @@ TEST_CASE("json: cylinders and cones stand upright on their base, round") {
     CHECK(pointed.c == Vec3{});
 }
 
-TEST_CASE("json: arbs of fewer vertices repeat them in BRL-CAD's order") {
+TEST_CASE("json: arbs of fewer vertices repeat them in BRL-CAD's order", "[promise:scenes]") {
     const auto vertices = [](int count) {
         std::string list;
         for (int i = 0; i < count; ++i) list += (i ? ", [" : "[") + std::to_string(i) + ", 0, 0]";
@@ -125,7 +125,7 @@ TEST_CASE("json: arbs of fewer vertices repeat them in BRL-CAD's order") {
     CHECK(vertices(8) == "01234567");
 }
 
-TEST_CASE("json: every length is in the file's units, no direction and no factor is") {
+TEST_CASE("json: every length is in the file's units, no direction and no factor is", "[promise:scenes]") {
     const Tor tor = std::get<Tor>(
         shape_of(R"({"type": "tor", "center": [1, 0, 0], "axis": [0, 0, 1], "radius": 2, "tube": 1})", "in"));
     CHECK(tor.v == Vec3{25.4, 0, 0});
@@ -154,7 +154,7 @@ TEST_CASE("json: trees become postfix, with a place for each node") {
     CHECK(tree_of(R"({"postfix": ["a", "b", {"operator": "xor", "operands": 2}]})").nodes.size() == 3);
 }
 
-TEST_CASE("json: placement is scale, then rotation, then translation, and from the outside in") {
+TEST_CASE("json: placement is scale, then rotation, then translation, and from the outside in", "[promise:scenes]") {
     CHECK(one_matrix(tree_of(
               R"({"object": "a", "rotate": {"axis": [0, 0, 2], "angle": 90}, "scale": [2, 3, 4],
                 "translate": [5, 6, 7]})")) ==
@@ -165,7 +165,7 @@ TEST_CASE("json: placement is scale, then rotation, then translation, and from t
     CHECK(nested.nodes[0].matrix == Matrix{-1, 0, 0, -1, 0, -1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1});
 }
 
-TEST_CASE("json: quarter turns are exact, others are rotations") {
+TEST_CASE("json: quarter turns are exact, others are rotations", "[promise:scenes]") {
     for (const double angle : {90., -90., 180., 270., 360., 450., -180.}) {
         const Tree tree =
             tree_of(R"({"object": "a", "rotate": {"axis": [1, 0, 0], "angle": )" + std::to_string(angle) + "}}");
@@ -276,7 +276,7 @@ TEST_CASE("json: numbers are read to the last bit, signs of zeros too") {
     CHECK(ell.c.x == 9007199254740992.0);
 }
 
-TEST_CASE("json: brackets nest up to the limit, and no deeper") {
+TEST_CASE("json: brackets nest up to the limit, and no deeper", "[promise:limits]") {
     const auto nested = [](std::size_t depth) {
         std::string text = R"({"csgrt": 1, "combinations": {"c": {"tree": )";  // three brackets
         for (std::size_t i = 3; i < depth; ++i) text += "{\"not\": ";
@@ -290,7 +290,7 @@ TEST_CASE("json: brackets nest up to the limit, and no deeper") {
     CHECK(findings_of(std::string(1'000'000, '[')).size() == 1);
 }
 
-TEST_CASE("json: every mistake of a file is reported, in the order of the file") {
+TEST_CASE("json: every mistake of a file is reported, in the order of the file", "[promise:refusals]") {
     const auto found = findings_of(R"({"csgrt": 1, "titel": "t",
         "solids": {"a": {"type": "sphere", "center": [0, 0], "radius": 0},
                    "b": {"type": "box", "low": [0, 0, 0]},

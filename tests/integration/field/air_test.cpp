@@ -50,10 +50,12 @@ StressScene airy(std::uint64_t seed, std::size_t times) {
 
 }  // namespace
 
-TEST_CASE("solid beats air, wherever it stands in the model", "[field]") { test::judge_seeds(airy, 1, 16, 1); }
-TEST_CASE("solid beats air on many rays", "[.long]") { test::judge_seeds(airy, 101, 500, 10); }
+TEST_CASE("solid beats air, wherever it stands in the model", "[field][promise:overlap]") {
+    test::judge_seeds(airy, 1, 16, 1);
+}
+TEST_CASE("solid beats air on many rays", "[.long][promise:overlap]") { test::judge_seeds(airy, 101, 500, 10); }
 
-TEST_CASE("an air region that the model lists first yields to what stands in it", "[field]") {
+TEST_CASE("an air region that the model lists first yields to what stands in it", "[field][promise:overlap]") {
     Builder to("room", 1, 1);
     to.region(leaf(to.solid(box({0, 0, 0}, {10, 10, 10}))), 3);
     to.region(leaf(to.solid(box({4, 4, 4}, {6, 6, 6}))));

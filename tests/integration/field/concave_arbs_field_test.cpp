@@ -171,6 +171,8 @@ FieldTally judged(std::uint64_t scenes, std::size_t times) {
 
 }  // namespace
 
-TEST_CASE("field: arbs that are not convex", "[field]") { require_all_right(judged(12, 1)); }
+TEST_CASE("field: arbs that are not convex", "[field][promise:solids]") { require_all_right(judged(12, 1)); }
 
-TEST_CASE("field: arbs that are not convex, 10^5 rays", "[.long]") { require_all_right(judged(250, 10)); }
+TEST_CASE("field: arbs that are not convex, 10^5 rays", "[.long][promise:solids]") {
+    require_all_right(judged(250, 10));
+}

@@ -409,20 +409,24 @@ void require_contact(Contacts (*make)(std::uint64_t, int), std::uint64_t seeds, 
 
 }  // namespace
 
-TEST_CASE("flat faces in contact: a ray in them is in exactly one part", "[field]") {
+TEST_CASE("flat faces in contact: a ray in them is in exactly one part", "[field][promise:contact]") {
     require_contact(flat_contacts, flat_parts, 8);
 }
-TEST_CASE("plates that end where others begin: a ray through the line between them is in exactly one", "[field]") {
+TEST_CASE("plates that end where others begin: a ray through the line between them is in exactly one",
+          "[field][promise:contact]") {
     require_contact(plate_contacts, 6, 16);
 }
-TEST_CASE("three cells around an edge: a ray along it is in exactly one", "[field]") {
+TEST_CASE("three cells around an edge: a ray along it is in exactly one", "[field][promise:contact]") {
     require_contact(edge_contacts, 6, 8);
 }
-TEST_CASE("curved faces in contact: nothing overlaps", "[field]") { require_contact(curved_contacts, 4, 12); }
-TEST_CASE("a ray that touches a lone block along a face or an edge is in it", "[field]") {
+TEST_CASE("curved faces in contact: nothing overlaps", "[field][promise:contact]") {
+    require_contact(curved_contacts, 4, 12);
+}
+TEST_CASE("a ray that touches a lone block along a face or an edge is in it", "[field][promise:contact]") {
     require_contact(lone, 4, 8);
 }
-TEST_CASE("pictures of a part and its mirror image, straight on: no background between them", "[field]") {
+TEST_CASE("pictures of a part and its mirror image, straight on: no background between them",
+          "[field][promise:contact]") {
     for (std::size_t kind = 0; kind < flat_parts; ++kind) {
         Builder to("mirrored", kind, 1);
         to.region(flat_part(to, kind, identity));
@@ -443,7 +447,8 @@ TEST_CASE("pictures of a part and its mirror image, straight on: no background b
     }
 }
 
-TEST_CASE("end faces of turns: across the axis a ray in their plane is within the solid, or outside", "[field]") {
+TEST_CASE("end faces of turns: across the axis a ray in their plane is within the solid, or outside",
+          "[field][promise:contact]") {
     require_turns(12, 12);
 }
 

@@ -178,7 +178,7 @@ TEST_CASE("etos across their axis: kernels before the oracle, ends and normals",
     CHECK(3 * ties < rays);
 }
 
-TEST_CASE("etos across their axis are right, on the device to the bit", "[field]") {
+TEST_CASE("etos across their axis are right, on the device to the bit", "[field][promise:solids]") {
     test::judge_seeds(crossed, 0, 12, 1);
     test::judge_seeds(crossed, 1003, 1, 6);  // its top is past the axis
 }

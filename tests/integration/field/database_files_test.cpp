@@ -132,7 +132,7 @@ TEST_CASE("files: noise of single precision in a matrix's last row is divided ou
     CHECK(faults_with("0 0 2e-9 1e-3") == 1);
 }
 
-TEST_CASE("files: a perspective matrix makes only what uses it unusable", "[field][asc]") {
+TEST_CASE("files: a perspective matrix makes only what uses it unusable", "[field][asc][promise:databases]") {
     const std::vector<std::pair<std::string, std::string>> rows = {
         {"1 0 0 0 0 1 0 0 0 0 1 0 0 0 .5 1", "must end in the row 0 0 0 1"},
         {"1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 0", "must end in the row 0 0 0 1"},
@@ -170,7 +170,7 @@ TEST_CASE("files: a perspective matrix makes only what uses it unusable", "[fiel
     CHECK(validate(scene, {"v"}).size() == 1);
 }
 
-TEST_CASE("files: BRL-CAD's units", "[field][asc]") {
+TEST_CASE("files: BRL-CAD's units", "[field][asc][promise:databases]") {
     const std::tuple<const char*, double, const char*> units[] = {{"inches", 25.4, "in"},
                                                                   {"IN", 25.4, "in"},
                                                                   {"millimeters", 1, "mm"},
@@ -243,7 +243,8 @@ TEST_CASE("files: the operators G, X and N of BRL-CAD's trees", "[field][asc]") 
     CHECK(asc_test::findings_in(v5 + "put c comb region yes tree {X {l a} {l b}}\n").size() == 1);
 }
 
-TEST_CASE("files: an object named by a path has the place and the attributes that it has there", "[field]") {
+TEST_CASE("files: an object named by a path has the place and the attributes that it has there",
+          "[field][promise:databases]") {
     const Scene scene =
         parse(v5 +
               "put s ell V {0 0 0} A {1 0 0} B {0 1 0} C {0 0 1}\nput t ell V {0 0 0} A {2 0 0} B {0 2 0} C {0 0 2}\n"
@@ -307,7 +308,7 @@ TEST_CASE("files: an object named by a path has the place and the attributes tha
     CHECK(object_at(flat, "a/b/r/s") == flat.find("s"));
 }
 
-TEST_CASE("files: points with a scale are balls", "[field]") {
+TEST_CASE("files: points with a scale are balls", "[field][promise:databases]") {
     // type 0: all of one scale; 2: each its own; 7: with colours and normals, too
     const std::string same = "put p pnts count 3 type 0 scale 2 data { {0 0 0} {3 0 0} {20 0 0} }\n";
     const std::string own = "put q pnts count 9 type 2 scale 5 data { {0 0 0 1} {10 0 0 2} {20 0 0 0} }\n";

@@ -30,10 +30,15 @@ StressScene mixed(std::uint64_t seed, std::size_t times) {
 
 }  // namespace
 
-TEST_CASE("FASTGEN's regions yield to plain ones, volumes to plates", "[field]") { test::judge_seeds(mixed, 1, 16, 1); }
-TEST_CASE("FASTGEN's regions yield on many rays", "[.long]") { test::judge_seeds(mixed, 101, 500, 10); }
+TEST_CASE("FASTGEN's regions yield to plain ones, volumes to plates", "[field][promise:overlap]") {
+    test::judge_seeds(mixed, 1, 16, 1);
+}
+TEST_CASE("FASTGEN's regions yield on many rays", "[.long][promise:overlap]") {
+    test::judge_seeds(mixed, 101, 500, 10);
+}
 
-TEST_CASE("a FASTGEN volume that the model lists first yields, and a note says what is not followed", "[field]") {
+TEST_CASE("a FASTGEN volume that the model lists first yields, and a note says what is not followed",
+          "[field][promise:overlap]") {
     Builder to("volume", 1, 1);
     to.region(leaf(to.solid(box({0, 0, 0}, {6, 6, 6}))), 0, Fastgen::volume);
     to.region(leaf(to.solid(box({4, 0, 0}, {10, 6, 6}))));

@@ -259,10 +259,14 @@ const std::string sound_g = g_test::header + solid_g(3, "ball.s", {0, 0, 0, 10, 
 
 }  // namespace
 
-TEST_CASE("broken legs of generated trees are empty sets", "[field]") { judge_broken_trees(1, 6, 1); }
-TEST_CASE("broken legs of generated trees are empty sets: 10^5 rays", "[.long]") { judge_broken_trees(1000, 200, 10); }
+TEST_CASE("broken legs of generated trees are empty sets", "[field][promise:databases]") {
+    judge_broken_trees(1, 6, 1);
+}
+TEST_CASE("broken legs of generated trees are empty sets: 10^5 rays", "[.long][promise:databases]") {
+    judge_broken_trees(1000, 200, 10);
+}
 
-TEST_CASE("a database in text is drawn without its broken legs", "[field]") {
+TEST_CASE("a database in text is drawn without its broken legs", "[field][promise:databases]") {
     const Broken kinds[] = {
         {"missing", "", "gone.s", "there is no such object"},
         {"numbers", "put bad.s ell V {0 0 0} A {10 0 0} B {0 0 0} C {0 0 10}\n", "bad.s", "has length 0"},
@@ -307,7 +311,7 @@ TEST_CASE("a database of release 4 in text is drawn without its broken legs", "[
     for (const Broken& broken : kinds) check_broken(broken, sound_v4, region_v4, parse_asc);
 }
 
-TEST_CASE("a binary database is drawn without its broken legs", "[field]") {
+TEST_CASE("a binary database is drawn without its broken legs", "[field][promise:databases]") {
     const std::string bad_token(1, '\11');
     const Broken kinds[] = {
         {"missing", "", "gone.s", "there is no such object"},
@@ -337,7 +341,7 @@ TEST_CASE("a binary database is drawn without its broken legs", "[field]") {
     for (const Broken& broken : kinds) check_broken(broken, sound_g, region_g, parse_g);
 }
 
-TEST_CASE("what is wrong beside the geometry is passed over, and told", "[field]") {
+TEST_CASE("what is wrong beside the geometry is passed over, and told", "[field][promise:databases]") {
     const Scene scene = parse_asc(sound_v5 +
                                       "put r.r comb region yes rgb {1 2 300} id 7 tree {l ball.s}\n"
                                       "attr set r.r los many aircode 0 material_id 5\n"
@@ -382,7 +386,8 @@ TEST_CASE("a file that cannot be read as a whole is refused with its place", "[f
     CHECK(refused(sound_g.substr(g_test::header.size()), parse_g));
 }
 
-TEST_CASE("a missing object is told once, with its legs counted; so is one that all use", "[field]") {
+TEST_CASE("a missing object is told once, with its legs counted; so is one that all use",
+          "[field][promise:databases]") {
     const Scene scene =
         parse_asc(sound_v5 + "put bad.s ell V {0 0 0} A {10 0 0} B {0 0 0} C {0 0 10}\n" +
                       region_v5("a.r", "ball.s", 'u', "gone.s") + region_v5("b.r", "bad.s", 'u', "gone.s") +

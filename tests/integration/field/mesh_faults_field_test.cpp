@@ -279,6 +279,8 @@ void require_tight(const Judged& all) {
 
 }  // namespace
 
-TEST_CASE("field: closed meshes with faults", "[field]") { require_tight(judged(16, 1)); }
+TEST_CASE("field: closed meshes with faults", "[field][promise:databases]") { require_tight(judged(16, 1)); }
 
-TEST_CASE("field: closed meshes with faults, 10^5 rays", "[.long]") { require_tight(judged(250, 10)); }
+TEST_CASE("field: closed meshes with faults, 10^5 rays", "[.long][promise:databases]") {
+    require_tight(judged(250, 10));
+}

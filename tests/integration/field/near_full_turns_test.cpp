@@ -167,10 +167,10 @@ test::FieldTally judged(StressScene (*make)(std::uint64_t, std::size_t), std::ui
 
 }  // namespace
 
-TEST_CASE("turns that close, or all but close, are right", "[field]") {
+TEST_CASE("turns that close, or all but close, are right", "[field][promise:rounding]") {
     test::require_all_right(judged(seams, 1, 24, 1));
 }
-TEST_CASE("pipes that all but run straight on, or turn back, are right", "[field]") {
+TEST_CASE("pipes that all but run straight on, or turn back, are right", "[field][promise:rounding]") {
     test::require_all_right(judged(bends, 1, 8, 1));
 }
 

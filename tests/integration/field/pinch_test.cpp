@@ -61,7 +61,7 @@ bench::Accuracy accuracy_of(const stress::StressScene& made) {
 
 }  // namespace
 
-TEST_CASE("pinches, tips and poles are met as the oracle meets them", "[field]") {
+TEST_CASE("pinches, tips and poles are met as the oracle meets them", "[field][promise:rounding]") {
     for (std::size_t kind = 0; kind < stress::pinch_kinds; ++kind) {
         INFO(kinds[kind]);
         FieldTally tally;
@@ -121,7 +121,7 @@ TEST_CASE("a ray along the axis of a horn torus meets it where the circle says",
 
 // The ray runs beside the side from far off: f falls by 0.7 % of what its terms change by, until 10^-4 before the tip.
 // The ends are of 60 digits' arithmetic, by the definition.
-TEST_CASE("a ray along the side of a pointed superellipsoid meets its tip", "[field]") {
+TEST_CASE("a ray along the side of a pointed superellipsoid meets its tip", "[field][promise:rounding]") {
     const Superell pointed{{2.9616880392244935, -1.853129323327839, 3.6616108962409397},
                            {-2.0678628708247495, 0.903791054162198, 0},
                            {0.11204047982719124, 0.25634724663081154, -2.6454456241357414},

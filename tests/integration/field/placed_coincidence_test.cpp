@@ -74,7 +74,9 @@ void require_placed(std::uint64_t seeds, int rays) {
 
 }  // namespace
 
-TEST_CASE("what coincides coincides wherever its frame is placed", "[field]") { require_placed(4 * kinds, 20); }
-TEST_CASE("what coincides coincides wherever its frame is placed, many rays", "[.long]") {
+TEST_CASE("what coincides coincides wherever its frame is placed", "[field][promise:coincidence]") {
+    require_placed(4 * kinds, 20);
+}
+TEST_CASE("what coincides coincides wherever its frame is placed, many rays", "[.long][promise:coincidence]") {
     require_placed(100 * kinds, 170);
 }

@@ -78,7 +78,7 @@ void check_arcs(std::uint64_t seed, int count) {
 
 }  // namespace
 
-TEST_CASE("a half circle of a radius of few digits is a half circle", "[field]") { check_arcs(1, 120); }
-TEST_CASE("a half circle of a radius of few digits is a half circle, 10^4 of them", "[.long]") {
+TEST_CASE("a half circle of a radius of few digits is a half circle", "[field][promise:scenes]") { check_arcs(1, 120); }
+TEST_CASE("a half circle of a radius of few digits is a half circle, 10^4 of them", "[.long][promise:scenes]") {
     check_arcs(2, 10'000);
 }

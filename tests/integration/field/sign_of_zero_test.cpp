@@ -194,7 +194,7 @@ void shoot_both(const Scene& scene, std::vector<Ray> rays, stress::Random& rando
 
 }  // namespace
 
-TEST_CASE("rays along axes and in planes of symmetry: the same zeros", "[agreement][field]") {
+TEST_CASE("rays along axes and in planes of symmetry: the same zeros", "[agreement][field][promise:shoot]") {
     Tally tally;
     for (std::size_t axis = 0; axis < 3; ++axis) {
         stress::Random random(1 + axis);
@@ -232,7 +232,7 @@ TEST_CASE("a million rays along axes and in planes of symmetry", "[.long]") {
 }
 
 // First hits go by packets on a processor. The middles of pixels lie in the planes of symmetry.
-TEST_CASE("pictures along the axes: the same zeros", "[agreement][field]") {
+TEST_CASE("pictures along the axes: the same zeros", "[agreement][field][promise:shoot]") {
     for (std::size_t axis = 0; axis < 3; ++axis) {
         stress::Random random(11 + axis);
         const Scene scene = square_of_samples(axis, random);

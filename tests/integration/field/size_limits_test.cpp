@@ -72,7 +72,7 @@ Scene one(Shape shape, const Matrix& matrix = identity) {
 
 }  // namespace
 
-TEST_CASE("answers are right up to the limits of sizes and of directions", "[field]") {
+TEST_CASE("answers are right up to the limits of sizes and of directions", "[field][promise:limits]") {
     test::judge_seeds(scaled, 1, 14, 1);
 }
 TEST_CASE("answers are right up to the limits on many rays", "[.long]") { test::judge_seeds(scaled, 101, 500, 10); }
@@ -150,7 +150,7 @@ TEST_CASE("a scene of every type answers the same, to the bit, 2^40 times as lar
     }
 }
 
-TEST_CASE("what is beyond the limits is refused with the object, the value and the limit", "[field]") {
+TEST_CASE("what is beyond the limits is refused with the object, the value and the limit", "[field][promise:limits]") {
     const double large = Limits::length, small = Limits::least_length;
     CHECK(refusal(one(ball({0, 0, 0}, large))).empty());
     CHECK(refusal(one(ball({0, 0, 0}, small))).empty());
@@ -173,7 +173,7 @@ TEST_CASE("what is beyond the limits is refused with the object, the value and t
     CHECK(says(refusal(nested, {"c29"}), "solid 'thing' reaches to "));
 }
 
-TEST_CASE("rays beyond the limits are refused with their number, the value and the limit", "[field]") {
+TEST_CASE("rays beyond the limits are refused with their number, the value and the limit", "[field][promise:limits]") {
     Renderer renderer(one(ball({0, 0, 0}, 1)), {}, test::on_reference());
     const auto refused = [&](const Ray& ray) {
         try {

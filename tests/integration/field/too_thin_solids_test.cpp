@@ -30,7 +30,7 @@ Arb film(double thickness) { return box({0, 0, 0}, {100, 100, thickness}); }
 
 }  // namespace
 
-TEST_CASE("a film whose two faces are one surface is named", "[field]") {
+TEST_CASE("a film whose two faces are one surface is named", "[field][promise:coincidence]") {
     CHECK(says(notes_of(film(1e-8)),
                "s0: nothing is left of it: two of its faces are 1e-08 mm apart, and faces within 1.4142"));
     CHECK(says(notes_of(film(1e-8)), "e-08 mm, 1e-10 of its size, are one surface"));
@@ -48,7 +48,7 @@ TEST_CASE("a film whose two faces are one surface is named", "[field]") {
     }
 }
 
-TEST_CASE("what is noted as gone is met by no ray, and what is not noted is met", "[field]") {
+TEST_CASE("what is noted as gone is met by no ray, and what is not noted is met", "[field][promise:coincidence]") {
     Random random(5);
     std::size_t gone = 0, there = 0;
     for (int i = 0; i < 60; ++i) {

@@ -253,7 +253,7 @@ Scene block_scene() { return parse_brlcad_asc(TextSource("lit.asc", lit_block({}
 
 }  // namespace
 
-TEST_CASE("field: regions of the shader light give the terms of plastic at every pixel", "[field]") {
+TEST_CASE("field: regions of the shader light give the terms of plastic at every pixel", "[field][promise:colors]") {
     std::size_t compared = 0;
     for (std::uint64_t seed = 1; seed <= 20; ++seed) compared += check_lamps(seed);
     CHECK(compared > 1500);
@@ -289,12 +289,13 @@ void require_lamp_on_device(Settings settings) {
 
 }  // namespace
 
-TEST_CASE("views: a light that is not visible, in single precision", "[.pocl]") {
+TEST_CASE("views: a light that is not visible, in single precision", "[.pocl][promise:colors]") {
     require_lamp_on_device({.precision = Precision::single});
     require_lamp_on_device(with_methods({.single_world = true}));
 }
 
-TEST_CASE("views: a light that is not visible is not drawn, yields to what stands in it, and is met by rays") {
+TEST_CASE("views: a light that is not visible is not drawn, yields to what stands in it, and is met by rays",
+          "[promise:colors]") {
     require_lamp_on_device({});
     Scene scene = lamp_in_block();
     const View view = from_x(16, 16);
@@ -320,7 +321,8 @@ TEST_CASE("views: a light that is not visible is not drawn, yields to what stand
     }
 }
 
-TEST_CASE("field: a parallel view that zooms shows what the whole view shows on the same lines", "[field]") {
+TEST_CASE("field: a parallel view that zooms shows what the whole view shows on the same lines",
+          "[field][promise:views]") {
     std::size_t compared = 0, different = 0;
     for (std::uint64_t seed = 1; seed <= 24; ++seed) different += differing(some_scene(seed), seed, compared);
     CHECK(compared == 24 * 256);
@@ -358,7 +360,7 @@ TEST_CASE("field: a perspective of nearly 0 is lit as none", "[field]") {
     }
 }
 
-TEST_CASE("views: the light by the eye goes on smoothly from far to near") {
+TEST_CASE("views: the light by the eye goes on smoothly from far to near", "[promise:colors]") {
     const Scene scene = block_scene();
     Renderer renderer(scene, {}, test::on_reference());
     // One pixel, which shows the same point of the face throughout.
@@ -380,7 +382,7 @@ TEST_CASE("views: the light by the eye goes on smoothly from far to near") {
     CHECK(most - least > 0.1);  // the light does move
 }
 
-TEST_CASE("views: an eye gives what azimuth and elevation give") {
+TEST_CASE("views: an eye gives what azimuth and elevation give", "[promise:views]") {
     const Scene scene = some_scene(3);
     Renderer renderer(scene, {}, test::on_reference());
     constexpr std::array<double, 2> angles[] = {{0, 0}, {90, 0}, {180, 0}, {-90, 0}, {0, 90}, {0, -90}};
@@ -424,7 +426,7 @@ TEST_CASE("views: an eye gives what azimuth and elevation give") {
     }
 }
 
-TEST_CASE("views: what is up turns the picture") {
+TEST_CASE("views: what is up turns the picture", "[promise:views]") {
     Renderer renderer(some_scene(5), {}, test::on_reference());
     View upright{16, 16, {}};
     upright.camera.azimuth = upright.camera.elevation = 0;
@@ -442,7 +444,7 @@ TEST_CASE("views: what is up turns the picture") {
     CHECK(shown > 10);
 }
 
-TEST_CASE("views: what makes no sense is refused in words") {
+TEST_CASE("views: what makes no sense is refused in words", "[promise:views]") {
     const Scene scene = block_scene();
     const double nan = std::numeric_limits<double>::quiet_NaN();
     struct {

@@ -238,7 +238,7 @@ void judge_models(std::uint64_t seed, int models, int rays) {
 
 }  // namespace
 
-TEST_CASE("a region has a ray in a face or an edge where it holds in a wedge around it") {
+TEST_CASE("a region has a ray in a face or an edge where it holds in a wedge around it", "[promise:contact]") {
     judge_models(1, test::tries(200), 40);
 }
 

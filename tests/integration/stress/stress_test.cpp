@@ -93,17 +93,17 @@ TreeNode op(Operator o, std::uint32_t arity) { return {o, arity, {}, identity, {
 }  // namespace
 
 // One each, so that a failure has a name. tests/CMakeLists.txt registers them.
-TEST_CASE("stress coplanar", "[.stress]") { run_sample("coplanar"); }
-TEST_CASE("stress coincident", "[.stress]") { run_sample("coincident"); }
+TEST_CASE("stress coplanar", "[.stress][promise:coincidence]") { run_sample("coplanar"); }
+TEST_CASE("stress coincident", "[.stress][promise:coincidence]") { run_sample("coincident"); }
 TEST_CASE("stress tangent", "[.stress]") { run_sample("tangent"); }
-TEST_CASE("stress edges", "[.stress]") { run_sample("edges"); }
-TEST_CASE("stress far_origin", "[.stress]") { run_sample("far_origin"); }
+TEST_CASE("stress edges", "[.stress][promise:contact]") { run_sample("edges"); }
+TEST_CASE("stress far_origin", "[.stress][promise:rounding][promise:coincidence]") { run_sample("far_origin"); }
 TEST_CASE("stress scale", "[.stress]") { run_sample("scale"); }
 TEST_CASE("stress slivers", "[.stress]") { run_sample("slivers"); }
 TEST_CASE("stress degenerate", "[.stress]") { run_sample("degenerate"); }
-TEST_CASE("stress deep_trees", "[.stress]") { run_sample("deep_trees"); }
+TEST_CASE("stress deep_trees", "[.stress][promise:booleans]") { run_sample("deep_trees"); }
 TEST_CASE("stress depth", "[.stress]") { run_sample("depth"); }
-TEST_CASE("stress overlaps", "[.stress]") { run_sample("overlaps"); }
+TEST_CASE("stress overlaps", "[.stress][promise:overlap]") { run_sample("overlaps"); }
 TEST_CASE("stress nested", "[.stress]") { run_sample("nested"); }
 TEST_CASE("stress pinch", "[.stress]") { run_sample("pinch"); }
 
@@ -113,7 +113,7 @@ TEST_CASE("the whole stress suite, 1,092 scenes", "[.long]") {
 }
 
 // With those of the whole suite, 1,000 scenes and 3,000 pictures.
-TEST_CASE("832 more coplanar and coincident scenes have no speckles", "[.long][speckles]") {
+TEST_CASE("832 more coplanar and coincident scenes have no speckles", "[.long][speckles][promise:coincidence]") {
     for (const char* family : {"coplanar", "coincident"}) {
         Speckles sum;
         for (std::uint64_t seed = 84; seed < 500; ++seed) sum += look(stress::make(family, seed), on_reference());
@@ -151,7 +151,7 @@ TEST_CASE("a tree of 100,000 nodes, and 10,000 segments on a ray", "[stress]") {
     require_right(stress::make("depth", 28), 0, 10'000);             // a comb, one solid
 }
 
-TEST_CASE("a device answers rays of up to 100,000 segments rightly", "[stress]") {
+TEST_CASE("a device answers rays of up to 100,000 segments rightly", "[stress][promise:booleans]") {
     for (std::uint64_t seed = 84; seed < 104; ++seed) {
         if ((seed - 84) % 5 == 4 && (seed > 90 || test::sanitized)) continue;  // 10^5 sheets: once will do
         if (test::sanitized && seed >= 94) break;

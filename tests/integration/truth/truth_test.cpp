@@ -268,5 +268,5 @@ void check_sets(std::size_t judged) {
 
 }  // namespace
 
-TEST_CASE("BRL-CAD's partitions, and the same from the other end", "[truth]") { check_sets(10); }
-TEST_CASE("the oracle on every ray of the sets of solids", "[.long]") { check_sets(1); }
+TEST_CASE("BRL-CAD's partitions, and the same from the other end", "[truth][promise:brlcad]") { check_sets(10); }
+TEST_CASE("the oracle on every ray of the sets of solids", "[.long][promise:brlcad]") { check_sets(1); }

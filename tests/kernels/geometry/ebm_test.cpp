@@ -42,8 +42,8 @@ OutlineCase ebm_case(std::size_t index, oracle::Random& random) {
 
 }  // namespace
 
-TEST_CASE("geometry: ebm agrees with the oracle", "[geometry]") { check_outlines(ebm_case, 6'000, 1); }
-TEST_CASE("geometry: ebm agrees with the oracle on a million rays", "[.long]") {
+TEST_CASE("geometry: ebm agrees with the oracle", "[geometry][promise:solids]") { check_outlines(ebm_case, 6'000, 1); }
+TEST_CASE("geometry: ebm agrees with the oracle on a million rays", "[.long][promise:solids]") {
     check_outlines(ebm_case, 1'000'000, 2);
 }
 

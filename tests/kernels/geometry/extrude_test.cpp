@@ -39,9 +39,9 @@ OutlineCase extrude_case(std::size_t index, oracle::Random& random) {
 
 }  // namespace
 
-TEST_CASE("geometry: extrude agrees with the oracle", "[geometry]") {
+TEST_CASE("geometry: extrude agrees with the oracle", "[geometry][promise:solids]") {
     check_outlines(extrude_case, test::sanitized ? 1'000 : 3'000, 1);
 }
-TEST_CASE("geometry: extrude agrees with the oracle on 200,000 rays", "[.long]") {
+TEST_CASE("geometry: extrude agrees with the oracle on 200,000 rays", "[.long][promise:solids]") {
     check_outlines(extrude_case, 200'000, 2);
 }

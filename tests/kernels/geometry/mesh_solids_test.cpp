@@ -125,10 +125,10 @@ std::pair<Shape, oracle::Parts> hilly_dsp(std::size_t index, const LocalFrame& l
 
 }  // namespace
 
-TEST_CASE("geometry: ars agree with the oracle", "[geometry]") { check_shapes(40, 21, rough_ars); }
-TEST_CASE("geometry: nmg agree with the oracle", "[geometry]") { check_shapes(40, 22, star_nmg); }
-TEST_CASE("geometry: vol agree with the oracle", "[geometry]") { check_shapes(40, 23, speckled_vol); }
-TEST_CASE("geometry: dsp agree with the oracle", "[geometry]") { check_shapes(40, 24, hilly_dsp); }
+TEST_CASE("geometry: ars agree with the oracle", "[geometry][promise:solids]") { check_shapes(40, 21, rough_ars); }
+TEST_CASE("geometry: nmg agree with the oracle", "[geometry][promise:solids]") { check_shapes(40, 22, star_nmg); }
+TEST_CASE("geometry: vol agree with the oracle", "[geometry][promise:solids]") { check_shapes(40, 23, speckled_vol); }
+TEST_CASE("geometry: dsp agree with the oracle", "[geometry][promise:solids]") { check_shapes(40, 24, hilly_dsp); }
 
 TEST_CASE("geometry: what triangles make agrees with the oracle on a million rays", "[.long]") {
     check_shapes(6'000, 31, rough_ars);

@@ -19,5 +19,7 @@ void check_meshes(std::size_t solids, std::uint64_t seed) {
 
 }  // namespace
 
-TEST_CASE("geometry: meshes (bot) agree with the oracle", "[geometry]") { check_meshes(80, 11); }
-TEST_CASE("geometry: meshes (bot) agree with the oracle on a million rays", "[.long]") { check_meshes(23'810, 12); }
+TEST_CASE("geometry: meshes (bot) agree with the oracle", "[geometry][promise:solids]") { check_meshes(80, 11); }
+TEST_CASE("geometry: meshes (bot) agree with the oracle on a million rays", "[.long][promise:solids]") {
+    check_meshes(23'810, 12);
+}

@@ -38,7 +38,8 @@ RayPartitions shoot(const Bot& bot, const Ray& ray) {
 
 }  // namespace
 
-TEST_CASE("a mesh with a hole: the sides that face each other bound the inside, from either end", "[geometry]") {
+TEST_CASE("a mesh with a hole: the sides that face each other bound the inside, from either end",
+          "[geometry][promise:solids]") {
     using enum Bot::Orientation;
     for (const bool turned : {false, true}) {
         const Bot bot = two_cubes(turned ? clockwise : counterclockwise, turned);

@@ -146,10 +146,12 @@ Bot one_triangle() {
 
 }  // namespace
 
-TEST_CASE("geometry: plates agree with the oracle", "[geometry]") { check_plates(40, 51); }
-TEST_CASE("geometry: plates agree with the oracle on 250,000 rays", "[.long]") { check_plates(6'000, 52); }
+TEST_CASE("geometry: plates agree with the oracle", "[geometry][promise:solids]") { check_plates(40, 51); }
+TEST_CASE("geometry: plates agree with the oracle on 250,000 rays", "[.long][promise:solids]") {
+    check_plates(6'000, 52);
+}
 
-TEST_CASE("geometry: surfaces, and faces without thickness, are seen as a skin", "[geometry]") {
+TEST_CASE("geometry: surfaces, and faces without thickness, are seen as a skin", "[geometry][promise:solids]") {
     Bot bot = one_triangle();
     for (const Bot::Mode mode : {Bot::Mode::surface, Bot::Mode::plate, Bot::Mode::plate_nocos}) {
         bot.mode = mode;

@@ -66,11 +66,11 @@ OutlineCase revolve_case(std::size_t index, oracle::Random& random) {
 
 }  // namespace
 
-TEST_CASE("geometry: revolve agrees with the oracle", "[geometry]") {
+TEST_CASE("geometry: revolve agrees with the oracle", "[geometry][promise:solids]") {
     check_outlines(revolve_case, test::sanitized ? 1'000 : 2'000, 1);
 }
 // Its closest approach to the axis lies within the tube, where no crossing is near: rounding made two there.
-TEST_CASE("geometry: a ray across the axis of a revolved circle meets it once") {
+TEST_CASE("geometry: a ray across the axis of a revolved circle meets it once", "[promise:rounding]") {
     Revolve shape;
     shape.v = {2, 1, -2}, shape.axis = {0, 1, 0}, shape.r = {0, 0, -1};
     shape.angle = 2 * pi;
@@ -83,7 +83,7 @@ TEST_CASE("geometry: a ray across the axis of a revolved circle meets it once") 
     CHECK(segments.front().out == Approx(7.4957217376585543).epsilon(1e-15));
 }
 // The first one's height is that of the vertex nearest to the axis, but for a bit; and it is all but flat.
-TEST_CASE("geometry: flat rays at the height of a vertex of a revolve") {
+TEST_CASE("geometry: flat rays at the height of a vertex of a revolve", "[promise:rounding]") {
     Revolve shape;
     shape.v = {-0.00096497293617720686, 0.0016327828372127819, -0.0025316160922581364};
     shape.axis = {0.00014555532940381533, 0.00058929476650774386, 0.00079469825987523747};
@@ -148,6 +148,6 @@ TEST_CASE("geometry: a ray along the axis of a revolve has normals along it, too
         }
     }
 }
-TEST_CASE("geometry: revolve agrees with the oracle on 100,000 rays", "[.long]") {
+TEST_CASE("geometry: revolve agrees with the oracle on 100,000 rays", "[.long][promise:solids]") {
     check_outlines(revolve_case, 100'000, 2, 1);
 }

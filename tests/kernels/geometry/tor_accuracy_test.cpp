@@ -122,7 +122,7 @@ void check(std::size_t rays, bool print) {
 
 }  // namespace
 
-TEST_CASE("geometry: tori are met as often as they are, within 1e-10 of their radii", "[geometry]") {
+TEST_CASE("geometry: tori are met as often as they are, within 1e-10 of their radii", "[geometry][promise:rounding]") {
     check(1'000, false);
 }
 TEST_CASE("geometry: tori, every way to solve a quartic on a million rays", "[.long]") { check(200'000, true); }

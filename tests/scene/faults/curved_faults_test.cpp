@@ -22,7 +22,7 @@ TEST_CASE("solid faults: particles") {
     check_fault(Part{none, z, 1, not_a_number}, "not finite");
 }
 
-TEST_CASE("solid faults: paraboloids and hyperboloids") {
+TEST_CASE("solid faults: paraboloids and hyperboloids", "[promise:refusals]") {
     check_sound(Epa{none, {0, 0, 5}, x, 2, 1});
     check_fault(Epa{none, none, x, 2, 1}, "the height has length 0");
     check_fault(Epa{none, z, {2, 0, 0}, 2, 1}, "is not of length 1");
@@ -48,7 +48,7 @@ TEST_CASE("solid faults: parabolic and hyperbolic cylinders") {
     check_fault(Rhc{none, y, y, 0, 1}, "must be perpendicular", 2);
 }
 
-TEST_CASE("solid faults: elliptical tori") {
+TEST_CASE("solid faults: elliptical tori", "[promise:refusals]") {
     check_sound(Eto{none, z, {26, 0, 30}, 55, 14});
     check_sound(Eto{none, z, {0, 0, 9}, 5, 5});  // touches the axis
     check_fault(Eto{none, z, {0, 0, 9}, 5, 5.1}, "neither semi-axis of the ellipse must reach across the axis");
@@ -73,7 +73,7 @@ TEST_CASE("solid faults: superellipsoids and hearts") {
     check_fault(Hrt{none, x, {1, 0, 1}, z, 1}, "the axes x, y and z lie in one plane");
 }
 
-TEST_CASE("solid faults: metaballs") {
+TEST_CASE("solid faults: metaballs", "[promise:refusals][promise:limits]") {
     using Method = Metaball::Method;
     check_sound(Metaball{Method::isopotential, 1, {{none, 28, 1}, {x, 22, 1}}});
     check_sound(Metaball{Method::isopotential, 1e9, {{none, 28, 0}}});
@@ -97,7 +97,7 @@ TEST_CASE("solid faults: metaballs") {
     }
 }
 
-TEST_CASE("solid faults: pipes") {
+TEST_CASE("solid faults: pipes", "[promise:refusals]") {
     const auto at = [](double px, double py, double bend = 3) { return Pipe::Point{{px, py, 0}, 2, 1, bend}; };
     check_sound(Pipe{{at(0, 0, 0), at(9, 0, 0)}});
     check_sound(Pipe{{at(0, 0), at(9, 0), at(9, 9)}});
@@ -116,7 +116,7 @@ TEST_CASE("solid faults: pipes") {
     check_fault(Pipe{{{none, 2, 2, 0}, {x, 2, 1, 0}}}, "must be less than the outer one");
 }
 
-TEST_CASE("solid faults: more points of a pipe than the limit") {
+TEST_CASE("solid faults: more points of a pipe than the limit", "[promise:refusals][promise:limits]") {
     const auto many = [](std::uint32_t count) {
         Pipe pipe;
         for (std::uint32_t i = 0; i < count; ++i) pipe.points.push_back({{3.0 * i, 0, 0}, 2, 1, 0});

@@ -67,7 +67,7 @@ Scene balls(std::size_t thousands, std::size_t more) {
 
 }  // namespace
 
-TEST_CASE("limits: docs/limits.md has each of them with its number") {
+TEST_CASE("limits: docs/limits.md has each of them with its number", "[promise:limits]") {
     const std::string root = test::folder("CSGRT_SCENES") + "/..";
     const auto limits =
         numbers_in(root + "/include/csgrt/scene.hpp", "^    static constexpr [a-z0-9:_]+ ([a-z_]+) = ([0-9.e'-]+);");
@@ -75,7 +75,7 @@ TEST_CASE("limits: docs/limits.md has each of them with its number") {
     CHECK(numbers_in(root + "/docs/limits.md", "^\\| `([a-z_]+)` \\| ([0-9.e,-]+) \\|") == limits);
 }
 
-TEST_CASE("limits: instances") {
+TEST_CASE("limits: instances", "[promise:limits]") {
     const auto found = [](std::size_t thousands, std::size_t more, std::uint64_t max_instances) {
         return validate(balls(thousands, more), {}, false, nullptr, max_instances).size();
     };
@@ -88,7 +88,7 @@ TEST_CASE("limits: instances") {
     CHECK(says(refusal(balls(1, 1), on_reference(Limits::most_instances + 1)), "max_instances is more than 20000000"));
 }
 
-TEST_CASE("limits: solids of many parts count as docs/limits.md says") {
+TEST_CASE("limits: solids of many parts count as docs/limits.md says", "[promise:limits]") {
     const auto count = [](Shape shape, std::string name = "s") {
         return instances_of({std::move(name), std::move(shape), {}});
     };
@@ -115,12 +115,12 @@ TEST_CASE("limits: solids of many parts count as docs/limits.md says") {
     CHECK(count(Dsp{"", 20, 1, false, Dsp::Cut::adaptive, identity, std::vector<std::uint16_t>(20)}) == 10);
 }
 
-TEST_CASE("limits: bytes of paths") {
+TEST_CASE("limits: bytes of paths", "[promise:limits]") {
     CHECK_NOTHROW(check_path_bytes(Limits::path_bytes));
     CHECK_THROWS_WITH(check_path_bytes(Limits::path_bytes + 1), Catch::Contains("more than 256000000 bytes"));
 }
 
-TEST_CASE("limits: parts of solids") {
+TEST_CASE("limits: parts of solids", "[promise:limits]") {
     std::vector<Plane> cube = {{x, 1}, {y, 1}, {z, 1}, {-1 * x, 1}, {-1 * y, 1}, {-1 * z, 1}};
     cube.resize(Limits::faces, {z, 1});
     check_sound(Arbn{cube});
@@ -141,7 +141,7 @@ TEST_CASE("limits: parts of solids") {
     check_fault(Superell{none, x, y, z, 1, above(Limits::greatest_exponent)}, "from 1/100 to 20");
 }
 
-TEST_CASE("limits: sizes, and the finish") {
+TEST_CASE("limits: sizes, and the finish", "[promise:limits]") {
     const auto refusal_of = [](const Vec3& center, double radius) {
         return refusal(make_scene({solid("s", Ell{center, {radius, 0, 0}, {0, radius, 0}, {0, 0, radius}})}));
     };
@@ -161,7 +161,7 @@ TEST_CASE("limits: sizes, and the finish") {
     }
 }
 
-TEST_CASE("limits: rays") {
+TEST_CASE("limits: rays", "[promise:limits]") {
     Renderer renderer(make_scene({ball("s")}), {}, on_reference());
     const auto is_refused = [&](const Ray& ray) {
         try {
@@ -179,7 +179,7 @@ TEST_CASE("limits: rays") {
     }
 }
 
-TEST_CASE("limits: triangles of a mesh", "[.long]") {
+TEST_CASE("limits: triangles of a mesh", "[.long][promise:limits]") {
     Bot bot;
     bot.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     bot.faces.resize(Limits::triangles, {0, 1, 2});

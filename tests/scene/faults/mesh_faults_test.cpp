@@ -39,7 +39,7 @@ Nmg pyramid() {
 
 }  // namespace
 
-TEST_CASE("solid faults: triangle meshes") {
+TEST_CASE("solid faults: triangle meshes", "[promise:refusals]") {
     check_sound(tetrahedron());
     check_sound(changed(tetrahedron(), [](Bot& b) { b.faces.pop_back(); }));  // open, and allowed
     check_sound(changed(tetrahedron(), [](Bot& b) { b.mode = Bot::Mode::surface; }));
@@ -88,7 +88,7 @@ TEST_CASE("solid faults: polyhedra of loops") {
     check_fault(changed(pyramid(), [](Nmg& n) { n.faces[3].push_back({}); }), "face 3 has a loop of fewer than 3");
 }
 
-TEST_CASE("solid faults: pictures and volumes") {
+TEST_CASE("solid faults: pictures and volumes", "[promise:refusals]") {
     const Ebm ebm{"", 3, 2, 5, identity, {0, 1, 0, 255, 0, 0}};
     check_sound(ebm);
     check_fault(changed(ebm, [](Ebm& e) { e.cells = {0, 0, 0, 0, 0, 0}; }), "none of its cells is solid");

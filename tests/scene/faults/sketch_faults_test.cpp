@@ -34,7 +34,7 @@ const Curves around = {Line{0, 1}, Line{1, 2}, Line{2, 3}, Line{3, 0}};
 
 }  // namespace
 
-TEST_CASE("solid faults: extruded outlines") {
+TEST_CASE("solid faults: extruded outlines", "[promise:refusals]") {
     check_sound(extrude(square, around));
     check_sound(extrude({{0, 0}, {4, 0}, {4, 4}, {0, 0}}, {Line{0, 1}, Line{1, 2}, Line{2, 3}}));  // closed by place
     check_sound(extrude(square, {Line{0, 1}, Arc{1, 2, 2, true, false}, Bezier{{2, 3, 0}}}));
@@ -55,7 +55,7 @@ TEST_CASE("solid faults: extruded outlines") {
     check_fault(solid, "directions for 3");
 }
 
-TEST_CASE("solid faults: more curves than the limit") {
+TEST_CASE("solid faults: more curves than the limit", "[promise:refusals][promise:limits]") {
     const auto many = [](std::uint32_t count) {
         Points points;
         Curves curves;
@@ -70,7 +70,7 @@ TEST_CASE("solid faults: more curves than the limit") {
     check_fault(many(Limits::curves + 1), "at most 100000");
 }
 
-TEST_CASE("solid faults: arcs") {
+TEST_CASE("solid faults: arcs", "[promise:refusals]") {
     check_sound(extrude(square, {Arc{0, 1, 2, false, false}, Line{1, 0}}));  // half a circle
     check_sound(extrude(square, {Arc{0, 1, 2 / (1 + 0.99e-5), false, false}, Line{1, 0}}));
     check_fault(extrude(square, {Arc{0, 1, 2 / (1 + 1.01e-5), false, false}, Line{1, 0}}), "too small a radius");
@@ -83,7 +83,7 @@ TEST_CASE("solid faults: arcs") {
     check_fault(extrude(square, {Arc{0, 1, not_a_number, false, false}, Line{1, 0}}), "radius that is not finite");
 }
 
-TEST_CASE("solid faults: bezier and nurb curves") {
+TEST_CASE("solid faults: bezier and nurb curves", "[promise:refusals]") {
     const auto closed = [](Sketch::Curve curve) { return extrude(square, {std::move(curve), Line{3, 0}}); };
     check_fault(closed(Bezier{{0}}), "fewer than 2 points");
     check_fault(closed(Bezier{std::vector<std::uint32_t>(14, 0)}), "is of degree 13; at most 12");

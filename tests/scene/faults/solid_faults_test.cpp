@@ -25,7 +25,7 @@ TEST_CASE("solid faults: ellipsoids") {
     check_fault(Ell{{not_a_number, 0, 0}, none, y, z}, "not finite");
 }
 
-TEST_CASE("solid faults: every form of cone that is allowed") {
+TEST_CASE("solid faults: every form of cone that is allowed", "[promise:refusals]") {
     check_sound(cone(none, z, 1, 1));
     check_sound(cone(none, z, 1, 0));
     check_sound(cone(none, z, 0, 1));                       // the apex is the base
@@ -36,7 +36,7 @@ TEST_CASE("solid faults: every form of cone that is allowed") {
     check_sound(Tgc{none, z, x, y, {1, 1e-6, 0}, {1e-6, 1, 0}});  // parallel in single precision
 }
 
-TEST_CASE("solid faults: cones that enclose nothing, or twist") {
+TEST_CASE("solid faults: cones that enclose nothing, or twist", "[promise:refusals]") {
     check_fault(Tgc{none, none, x, y, x, y}, "height has length 0");
     check_fault(Tgc{none, z, none, none, none, none}, "both points");
     check_fault(Tgc{none, z, x, none, x, y}, "axis b of the base");
@@ -50,7 +50,7 @@ TEST_CASE("solid faults: cones that enclose nothing, or twist") {
     check_fault(Tgc{none, {0, 0, not_a_number}, x, y, x, y}, "not finite");
 }
 
-TEST_CASE("solid faults: arbs") {
+TEST_CASE("solid faults: arbs", "[promise:refusals]") {
     check_sound(box({0, 0, 0}, {1, 1, 1}));
     check_sound(box({0, 0, 0}, {1000, 1000, 1e-6}));
     check_sound(box({1e9, 1e9, 1e9}, {1e9 + 1, 1e9 + 1, 1e9 + 1}));
@@ -62,7 +62,7 @@ TEST_CASE("solid faults: arbs") {
     check_fault(box({0, 0, 0}, {1, 1, infinite}), "not finite");
 }
 
-TEST_CASE("solid faults: half-spaces and what they bound") {
+TEST_CASE("solid faults: half-spaces and what they bound", "[promise:refusals]") {
     const std::vector<Plane> corner = {{{-1, 0, 0}, 0}, {{0, -1, 0}, 0}, {{0, 0, -1}, 0}};
     std::vector<Plane> closed = corner;
     const double s = 1 / std::sqrt(3.0);
@@ -81,7 +81,7 @@ TEST_CASE("solid faults: half-spaces and what they bound") {
     check_fault(Arbn{std::vector<Plane>(Limits::faces + 1, {z, 1})}, "at most 16384");
 }
 
-TEST_CASE("solid faults: tori") {
+TEST_CASE("solid faults: tori", "[promise:refusals]") {
     check_sound(Tor{none, {0, 0, 7}, 2, 1});
     check_sound(Tor{none, z, 1, 1});  // a horn torus
     check_fault(Tor{none, z, 1, 1.5}, "must not be greater");

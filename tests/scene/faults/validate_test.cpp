@@ -25,7 +25,7 @@ TEST_CASE("validate: a sound scene") {
     CHECK(validate(make_scene({ball("a")})).empty());
 }
 
-TEST_CASE("validate: looks at what is reached, and nothing else") {
+TEST_CASE("validate: looks at what is reached, and nothing else", "[promise:refusals]") {
     const Scene scene =
         make_scene({ball("good"), ball("bad", 0), combination("uses_bad", union_of({"bad"})),
                     combination("uses_good", union_of({"good"})), combination("lost", union_of({"gone"}))});
@@ -64,7 +64,7 @@ TEST_CASE("validate: cycles show their path, also when nothing is on top") {
               "'x' contains itself: x/x");
 }
 
-TEST_CASE("validate: trees that are no trees") {
+TEST_CASE("validate: trees that are no trees", "[promise:refusals]") {
     const auto found = [](Tree t) { return validate(make_scene({ball("a"), combination("c", std::move(t))}), {"c"}); };
     CHECK(found(tree({leaf("a")})).empty());
     CHECK(found(tree({leaf("a"), node(Operator::not_, 1), leaf("a"), node(Operator::intersection, 2)})).empty());
@@ -119,7 +119,7 @@ TEST_CASE("validate: a solid that is not supported names its users") {
     check_one(validate(scene, {"hose"}), "does not support");
 }
 
-TEST_CASE("validate: copies of copies are counted without making them") {
+TEST_CASE("validate: copies of copies are counted without making them", "[promise:limits]") {
     std::vector<Object> objects = {ball("c0")};
     for (int i = 1; i <= 200; ++i) {
         const std::string below = "c" + std::to_string(i - 1);
@@ -141,7 +141,7 @@ TEST_CASE("validate: copies of copies are counted without making them") {
     check_one(most("c3", 7), "'c3' expands to 8 instances; at most 7 are allowed");
 }
 
-TEST_CASE("validate: each object once is never too many, and a few copies of large solids may be") {
+TEST_CASE("validate: each object once is never too many, and a few copies of large solids may be", "[promise:limits]") {
     std::vector<Object> objects;
     std::vector<std::string> names;
     for (std::uint64_t i = 0; i < Limits::instances + 5; ++i) {
@@ -180,7 +180,7 @@ TEST_CASE("validate: of a long cycle the end is told") {
     check_one(validate(make_scene(std::move(objects)), {"c0"}), "'c0' contains itself: c0/.../c380/c381/");
 }
 
-TEST_CASE("validate: nesting is limited, and costs no stack up to there and beyond") {
+TEST_CASE("validate: nesting is limited, and costs no stack up to there and beyond", "[promise:limits]") {
     const auto chain = [](int length) {
         std::vector<Object> objects = {ball("c0")};
         for (int i = 1; i <= length; ++i) {
@@ -193,7 +193,7 @@ TEST_CASE("validate: nesting is limited, and costs no stack up to there and beyo
     check_one(validate(chain(200'000)), "nested more than 1000 deep");
 }
 
-TEST_CASE("validate: many findings are cut off, and their number is told") {
+TEST_CASE("validate: many findings are cut off, and their number is told", "[promise:refusals]") {
     std::vector<Object> objects;
     for (int i = 0; i < 70; ++i)
         objects.push_back(ball("b" + std::to_string(i), std::numeric_limits<double>::infinity()));
