@@ -80,15 +80,25 @@ typedef struct csgrt_box {
 } csgrt_box;
 typedef struct csgrt_plane {
     csgrt_vec3 normal;
-    double distance;  ///< millimetres, from the origin, whatever the normal's length
+    /// Millimetres, from the origin, whatever the normal's length.
+    double distance;
 } csgrt_plane;
 
 /// Gets `user` and the done fraction, on the thread whose call it is. 0 ends the call (CSGRT_ERROR_INTERRUPTED).
 typedef int (*csgrt_progress)(void* user, double done);
 
 // Values of the members precision and tolerance_rule, as csgrt/method.hpp has them.
-enum { CSGRT_PRECISION_DOUBLE, CSGRT_PRECISION_SINGLE, CSGRT_PRECISION_QUAD };
-enum { CSGRT_TOLERANCE_LENGTH, CSGRT_TOLERANCE_SURFACES, CSGRT_TOLERANCE_RELATIVE, CSGRT_TOLERANCE_NONE };
+enum {
+    CSGRT_PRECISION_DOUBLE = 0,
+    CSGRT_PRECISION_SINGLE = 1,
+    CSGRT_PRECISION_QUAD = 2,
+};
+enum {
+    CSGRT_TOLERANCE_LENGTH = 0,
+    CSGRT_TOLERANCE_SURFACES = 1,
+    CSGRT_TOLERANCE_RELATIVE = 2,
+    CSGRT_TOLERANCE_NONE = 3,
+};
 
 /// csgrt::Settings. NULL in place of a pointer to it: the defaults.
 typedef struct csgrt_settings {
@@ -133,9 +143,18 @@ typedef struct csgrt_settings {
 /// csgrt::DeviceInfo
 typedef struct csgrt_device_info {
     size_t size;
-    const char *name, *platform, *version, *driver, *type;
-    uint64_t memory, max_allocation;  ///< bytes
+    const char* name;
+    const char* platform;
+    const char* version;
+    const char* driver;
+    /// "cpu", "gpu" or "accelerator".
+    const char* type;
+    /// Bytes of all its memory.
+    uint64_t memory;
+    /// Bytes of one buffer at most.
+    uint64_t max_allocation;
     unsigned compute_units;
+    /// Whether it computes in double precision.
     int fp64;
 } csgrt_device_info;
 
@@ -196,12 +215,12 @@ CSGRT_API csgrt_status csgrt_scene_add_mesh(csgrt_scene* scene, const char* name
                                             size_t vertex_count, const uint32_t* faces, size_t face_count);
 
 typedef enum csgrt_operator {
-    CSGRT_LEAF,
-    CSGRT_UNION,
-    CSGRT_INTERSECTION,
-    CSGRT_DIFFERENCE,
-    CSGRT_XOR,
-    CSGRT_NOT
+    CSGRT_LEAF = 0,
+    CSGRT_UNION = 1,
+    CSGRT_INTERSECTION = 2,
+    CSGRT_DIFFERENCE = 3,
+    CSGRT_XOR = 4,
+    CSGRT_NOT = 5,
 } csgrt_operator;
 /// A node of a Boolean tree in postfix order: an operator follows its `arity` operands. "ball" less "hole" is
 /// {CSGRT_OBJECT("ball"), CSGRT_OBJECT("hole"), CSGRT_JOIN(CSGRT_DIFFERENCE, 2)}.
@@ -242,9 +261,25 @@ CSGRT_API csgrt_status csgrt_scene_add_combination(csgrt_scene* scene, const csg
 /// csgrt::Camera. NULL: not given.
 typedef struct csgrt_camera {
     size_t size;
-    double azimuth, elevation, perspective;
-    double view_size;  ///< millimetres; 0: not given
-    const csgrt_vec3 *center, *eye, *look_at, *up;
+    /// Degrees of the direction from the model to the eye: from +x about z.
+    double azimuth;
+    /// Degrees of the same direction above the xy plane.
+    double elevation;
+    /// Degrees of the angle of view across the picture's height, below 180; 0: parallel.
+    double perspective;
+    /// The middle of the picture; the middle of the model's box if not given.
+    const csgrt_vec3* center;  ///< NULL: not given
+    /// Height of the view at the middle of the picture; the diagonal of the model's box if not given. A parallel view
+    /// shows everything before its plane, however small it is.
+    double view_size;  ///< 0: not given
+    /// Where the eye is, in place of azimuth and elevation. With a perspective it gives the size of the view, too; a
+    /// parallel view takes only its direction from it.
+    const csgrt_vec3* eye;  ///< NULL: not given
+    /// Another name of the picture's middle.
+    const csgrt_vec3* look_at;  ///< NULL: not given
+    /// The direction that points up in the picture; +z if not given, or in a view straight down or up the direction
+    /// that azimuth 0 has.
+    const csgrt_vec3* up;  ///< NULL: not given
 } csgrt_camera;
 CSGRT_API csgrt_status csgrt_scene_camera(const csgrt_scene* scene, csgrt_camera* camera);
 CSGRT_API csgrt_status csgrt_scene_set_camera(csgrt_scene* scene, const csgrt_camera* camera);
@@ -285,8 +320,16 @@ CSGRT_API csgrt_status csgrt_scene_warning(const csgrt_scene* scene, size_t inde
 /// A compiled scene, which never changes.
 typedef struct csgrt_model csgrt_model;
 
-enum { CSGRT_STATE_SHOWN, CSGRT_STATE_GHOST, CSGRT_STATE_HIDDEN };       // state
-enum { CSGRT_FASTGEN_NONE, CSGRT_FASTGEN_PLATE, CSGRT_FASTGEN_VOLUME };  // fastgen
+enum {  // state
+    CSGRT_STATE_SHOWN = 0,
+    CSGRT_STATE_GHOST = 1,
+    CSGRT_STATE_HIDDEN = 2,
+};
+enum {  // fastgen
+    CSGRT_FASTGEN_NONE = 0,
+    CSGRT_FASTGEN_PLATE = 1,
+    CSGRT_FASTGEN_VOLUME = 2,
+};
 
 /// Validates and compiles. `objects` as in csgrt_validate(). CSGRT_ERROR_SCENE, CSGRT_ERROR_USAGE.
 CSGRT_API csgrt_status csgrt_model_create(const csgrt_scene* scene, const char* const* objects, size_t object_count,
@@ -306,9 +349,24 @@ CSGRT_API csgrt_status csgrt_model_get_info(const csgrt_model* model, csgrt_mode
 /// csgrt::RegionInfo
 typedef struct csgrt_region_info {
     size_t size;
+    /// "/top/.../region": the legs on the way down, by TreeNode::name. No other region has it, and edits of other
+    /// regions do not change it: the key by which a region is found again in a later Model.
     const char* path;
-    int fastgen, region_id, air, material_id, los, state;
+    /// FASTGEN's kind of the region.
+    int fastgen;
+    /// BRL-CAD's number of the region, which is not its index.
+    int region_id;
+    /// BRL-CAD's number of the air; other than 0: a region of air.
+    int air;
+    /// BRL-CAD's number of the material.
+    int material_id;
+    /// BRL-CAD's percentage of the line of sight.
+    int los;
+    /// Display values: red, green, blue; 0 to 1.
     csgrt_vec3 color;
+    /// Whether pictures show it.
+    int state;
+    /// Millimetres; as BRL-CAD computes it, so not always tight.
     csgrt_box bounds;
 } csgrt_region_info;
 /// Of the region that region_ids have as `index`.
@@ -318,8 +376,12 @@ CSGRT_API csgrt_status csgrt_model_finish(const csgrt_model* model, size_t regio
 /// csgrt::SolidInfo
 typedef struct csgrt_solid_info {
     size_t size;
-    const char *name, *type;
-    uint32_t piece;
+    /// The object's.
+    const char* name;
+    /// BRL-CAD's name of the type: ell, tgc, arb8, and so on.
+    const char* type;
+    /// From 0: which of the solids into which csgrt cuts a pipe.
+    unsigned piece;
 } csgrt_solid_info;
 /// Of the solid that solid ids have as `index`.
 CSGRT_API csgrt_status csgrt_model_solid(const csgrt_model* model, size_t index, csgrt_solid_info* info);
@@ -328,16 +390,30 @@ CSGRT_API csgrt_status csgrt_model_warning(const csgrt_model* model, size_t inde
 // ---- Rays ----
 
 typedef struct csgrt_ray {
-    csgrt_vec3 origin, direction;  ///< the direction of any length but 0
+    /// Millimetres.
+    csgrt_vec3 origin;
+    /// Of any length but 0.
+    csgrt_vec3 direction;
 } csgrt_ray;
 typedef struct csgrt_range {
-    double t_near, t_far;
+    /// In lengths of the ray's direction.
+    double t_near;
+    /// The same.
+    double t_far;
 } csgrt_range;
 
 /// csgrt::RayGrid: rays in rows and columns, which a device makes itself.
 typedef struct csgrt_ray_grid {
-    csgrt_vec3 origin, direction, right, up;
-    int columns, rows, is_pinhole;
+    /// Millimetres.
+    csgrt_vec3 origin;
+    csgrt_vec3 direction;
+    /// From a ray to the next one in its row.
+    csgrt_vec3 right;
+    /// From a ray to the next one in its column.
+    csgrt_vec3 up;
+    int columns;
+    int rows;
+    int is_pinhole;
 } csgrt_ray_grid;
 /// Parallel rays along an axis, 0 to 2, through a box.
 CSGRT_API csgrt_status csgrt_rays_parallel(const csgrt_box* box, int axis, int columns, int rows, csgrt_ray_grid* grid);
@@ -358,12 +434,12 @@ typedef struct csgrt_rays {
     size_t range_count;
     unsigned fields;  ///< of csgrt_partitions, besides regions and distances: CSGRT_FIELD_SOLIDS | ...
 } csgrt_rays;
-enum {
+enum {  // fields
     CSGRT_FIELD_SOLIDS = 1,
     CSGRT_FIELD_NORMALS = 2,
     CSGRT_FIELD_OVERLAPS = 4,
-    CSGRT_FIELD_WITHOUT_HIDDEN = 8
-};  // fields
+    CSGRT_FIELD_WITHOUT_HIDDEN = 8,
+};
 
 /// Memory for everything along a list of rays, which the next call uses again.
 typedef struct csgrt_partitions csgrt_partitions;
@@ -399,9 +475,18 @@ typedef struct csgrt_hits {
 
 /// csgrt::Slice: pixels in a plane.
 typedef struct csgrt_slice {
-    csgrt_vec3 center, right, up;  ///< `right` and `up`: from a pixel to the next one
-    int width, height;
-    int hidden;  ///< 0: without regions that pictures do not show
+    /// Millimetres.
+    csgrt_vec3 center;
+    /// From a pixel to the next one in its row, millimetres.
+    csgrt_vec3 right;
+    /// From a pixel to the next one in its column, millimetres.
+    csgrt_vec3 up;
+    /// Pixels.
+    int width;
+    /// Pixels.
+    int height;
+    /// False: regions that pictures do not show (State) are not there.
+    int hidden;
 } csgrt_slice;
 /// The slice of a box by the plane n . p = offset, n being the unit vector of `normal`.
 CSGRT_API csgrt_status csgrt_slice_of(const csgrt_box* box, const csgrt_vec3* normal, double offset, int width,
@@ -455,12 +540,64 @@ typedef int (*csgrt_take)(void* user, const csgrt_partitions* batch, uint64_t fi
 CSGRT_API csgrt_status csgrt_renderer_partitions_in_batches(csgrt_renderer* renderer, const csgrt_rays* rays,
                                                             uint64_t most, csgrt_take take, void* user);
 
-/// Of the last call: a part of csgrt::Statistics. Milliseconds and bytes.
+/// csgrt::Statistics: of the last call. Milliseconds and bytes.
 typedef struct csgrt_statistics {
     size_t size;
-    const char *device, *awaited_device;
-    uint64_t rays, segments, partitions, overlaps, device_bytes;
-    double ms_compile, ms_build, ms_kernels, ms_frame;
+    /// The device that computed, or "reference".
+    const char* device;
+    /// The device that is made ready at the time of Renderer::statistics() and will replace `device`: its name, "gpu"
+    /// while none is found, empty if none is awaited.
+    const char* awaited_device;
+    /// As in precision_names, or "quad".
+    const char* precision;
+    /// A few words.
+    const char* method;
+    /// Millimetres: the one that Settings::tolerance_rule gave.
+    double tolerance;
+    /// Of the picture, pixels; 0 for rays.
+    int width;
+    /// The same.
+    int height;
+    uint64_t rays;
+    /// Of segments along all rays.
+    uint64_t ends;
+    /// Intervals of rays inside single solids.
+    uint64_t segments;
+    /// Intervals between neighbouring ends of segments that are inside any solid.
+    uint64_t partitions_used;
+    /// For how many partitions there was memory.
+    uint64_t partitions_allocated;
+    /// Partitions that several regions of the same rank claim.
+    uint64_t overlaps;
+    /// Memory in use on all devices.
+    uint64_t device_bytes;
+    /// Memory for segments, all batches.
+    uint64_t segment_bytes;
+    /// Memory for partitions, all batches.
+    uint64_t partition_bytes;
+    /// Of rays.
+    unsigned batches;
+    /// Reading the scene's file; the command line sets it.
+    double ms_load;
+    /// Compiling the scene.
+    double ms_compile;
+    /// Finding devices and compiling all kernels so far. A call that waits for that does not count it as `frame`.
+    double ms_build;
+    double ms_count_segments;
+    double ms_scan;
+    double ms_store_segments;
+    double ms_weave;
+    double ms_evaluate;
+    double ms_shade;
+    double ms_rows;
+    double ms_cull_tiles;
+    double ms_first_hits;
+    /// In which kernels ran on a device, whether one or several at once.
+    double ms_kernels;
+    /// The whole call, on the host's clock.
+    double ms_frame;
+    /// Writing the picture's file; the command line sets it.
+    double ms_write;
 } csgrt_statistics;
 CSGRT_API csgrt_status csgrt_renderer_statistics(const csgrt_renderer* renderer, csgrt_statistics* statistics);
 /// csgrt::Renderer::device_warnings(), beside those of the model (csgrt_model_warning).
@@ -478,11 +615,14 @@ enum {  // channels
     CSGRT_CHANNEL_COUNTS = 16,
     CSGRT_CHANNEL_ALL = 31,
     CSGRT_CHANNEL_DISPLAY = 32,
-    CSGRT_CHANNEL_GHOSTS = 64
+    CSGRT_CHANNEL_GHOSTS = 64,
 };
 
 typedef struct csgrt_pixel_rectangle {
-    int left, top, width, height;
+    int left;
+    int top;
+    int width;
+    int height;
 } csgrt_pixel_rectangle;
 
 /// csgrt::View: what to draw.
@@ -635,18 +775,19 @@ CSGRT_API void csgrt_verification_init(csgrt_verification* verification);
 #define CSGRT_JOIN(op, arity) {op, arity, NULL, NULL, NULL}
 #define CSGRT_FINISH {sizeof(csgrt_finish), "plastic", 0.7, 0.3, 1, 10, 0, 0, 0, 1, 0, 180, NULL, NULL, 0, 1, 1}
 #define CSGRT_COMBINATION {sizeof(csgrt_combination), "", NULL, 0, 0, 0, 0, 0, 1, 100, NULL, NULL, 0, 0}
-#define CSGRT_CAMERA {sizeof(csgrt_camera), 35, 25, 0, 0, NULL, NULL, NULL, NULL}
+#define CSGRT_CAMERA {sizeof(csgrt_camera), 35, 25, 0, NULL, 0, NULL, NULL, NULL}
 #define CSGRT_LIGHT {{0, 0, 0}, {1, 1, 1}, 1, 0, 180, {0, 0, -1}}
 #define CSGRT_SCENE_INFO {sizeof(csgrt_scene_info), "", "mm", 1, 0.4, {0, 0, 0}, 0, 0, 0, 0, 0}
 #define CSGRT_MODEL_INFO {sizeof(csgrt_model_info), {{0, 0, 0}, {0, 0, 0}}, 0, 0, 0, 0}
-#define CSGRT_REGION_INFO {sizeof(csgrt_region_info), "", 0, 0, 0, 0, 0, 0, {0, 0, 0}, {{0, 0, 0}, {0, 0, 0}}}
+#define CSGRT_REGION_INFO {sizeof(csgrt_region_info), "", 0, 0, 0, 0, 0, {1, 1, 1}, 0, {{0, 0, 0}, {0, 0, 0}}}
 #define CSGRT_SOLID_INFO {sizeof(csgrt_solid_info), "", "", 0}
 #define CSGRT_RAYS {sizeof(csgrt_rays), NULL, 0, NULL, {0, HUGE_VAL}, NULL, 0, 0}
 #define CSGRT_PARTITION_ARRAYS {sizeof(csgrt_partition_arrays), 0, 0, 0, 0, NULL, NULL, NULL, NULL, NULL, NULL, \
     NULL, NULL, NULL, NULL, NULL, NULL, NULL}
 #define CSGRT_HITS {sizeof(csgrt_hits), 0, NULL, NULL, NULL, NULL}
-#define CSGRT_STATISTICS {sizeof(csgrt_statistics), "", "", 0, 0, 0, 0, 0, 0, 0, 0, 0}
-#define CSGRT_VIEW {sizeof(csgrt_view), 1024, 1024, NULL, 1, CSGRT_CHANNEL_ALL, NULL, 0, NULL, 1, 0}
+#define CSGRT_STATISTICS {sizeof(csgrt_statistics), "", "", "", "", 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, \
+    0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0}
+#define CSGRT_VIEW {sizeof(csgrt_view), 1024, 1024, NULL, 1, 31, NULL, 0, NULL, 1, 0}
 #define CSGRT_IMAGE_INFO {sizeof(csgrt_image_info), 0, 0, 0, 0}
 #define CSGRT_PICK {sizeof(csgrt_pick), -1, -1, 0, {0, 0, 0}, {0, 0, 0}, {{0, 0, 0}, {0, 0, 0}}}
 #define CSGRT_VERIFICATION {sizeof(csgrt_verification), "", 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, {{0, 0, 0}, {0, 0, 0}}}

@@ -13,10 +13,11 @@ namespace csgrt {
 /// One device, as its driver describes it.
 struct DeviceInfo {
     std::string name = {}, platform = {}, version = {}, driver = {};
-    std::string type = {};                         ///< "cpu", "gpu" or "accelerator"
-    std::uint64_t memory = 0, max_allocation = 0;  ///< bytes: of all its memory, and of one buffer at most
+    std::string type = {};             ///< "cpu", "gpu" or "accelerator".
+    std::uint64_t memory = 0;          ///< Bytes of all its memory.
+    std::uint64_t max_allocation = 0;  ///< Bytes of one buffer at most.
     unsigned compute_units = 0;
-    bool fp64 = false;  ///< whether it computes in double precision
+    bool fp64 = false;  ///< Whether it computes in double precision.
 };
 
 /// Every device, in the order of the numbers that Settings::device takes: the devices of OpenCL, and the native devices

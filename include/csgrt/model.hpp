@@ -20,19 +20,22 @@ struct RegionInfo {
     /// "/top/.../region": the legs on the way down, by TreeNode::name. No other region has it, and edits of other
     /// regions do not change it: the key by which a region is found again in a later Model.
     std::string path = {};
-    Fastgen fastgen = Fastgen::none;
-    int region_id = 0, air = 0, material_id = 0, los = 0;  ///< as in Combination
-    Vec3 color{1, 1, 1};                                   ///< display values: red, green, blue; 0 to 1
+    Fastgen fastgen = Fastgen::none;  ///< FASTGEN's kind of the region.
+    int region_id = 0;                ///< BRL-CAD's number of the region, which is not its index.
+    int air = 0;                      ///< BRL-CAD's number of the air; other than 0: a region of air.
+    int material_id = 0;              ///< BRL-CAD's number of the material.
+    int los = 0;                      ///< BRL-CAD's percentage of the line of sight.
+    Vec3 color{1, 1, 1};              ///< Display values: red, green, blue; 0 to 1.
     Finish finish = {};
-    State state = State::shown;
-    Box bounds = {};  ///< millimetres; as BRL-CAD computes it, so not always tight
+    State state = State::shown;  ///< Whether pictures show it.
+    Box bounds = {};             ///< Millimetres; as BRL-CAD computes it, so not always tight.
 };
 
 /// One solid of the compiled model.
 struct SolidInfo {
-    std::string name = {};
-    std::string type = {};    ///< as type_name() has it
-    std::uint32_t piece = 0;  ///< csgrt cuts a pipe into several solids: which of them this is, from 0
+    std::string name = {};    ///< The object's.
+    std::string type = {};    ///< BRL-CAD's name of the type: ell, tgc, arb8, and so on.
+    std::uint32_t piece = 0;  ///< From 0: which of the solids into which csgrt cuts a pipe.
 };
 
 /// A compiled scene. It never changes: any number of threads may use it, and any number of Renderers draw it. A copy is

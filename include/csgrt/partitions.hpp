@@ -40,7 +40,9 @@ struct RayPartitions {
 
 /// What a list of rays is asked for besides rays, regions and distances.
 struct Fields {
-    bool solids = false, normals = false, overlaps = false;
+    bool solids = false;    ///< Whose surfaces the boundaries are.
+    bool normals = false;   ///< Unit vectors there, outward from the region.
+    bool overlaps = false;  ///< The parts of rays that several regions claim.
     /// False: regions that pictures do not show (State) are not there. First hits never have them.
     bool hidden = true;
 };

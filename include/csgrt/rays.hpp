@@ -17,14 +17,14 @@ namespace csgrt {
 /// The ray origin + t x direction, t >= 0. Distances t along it are in units of the direction's length, which may be
 /// any but 0: millimetres if the direction is a unit vector. Limits has the range of both.
 struct Ray {
-    Vec3 origin = {};  ///< millimetres
-    Vec3 direction = {};
+    Vec3 origin = {};     ///< Millimetres.
+    Vec3 direction = {};  ///< Of any length but 0.
 };
 
-/// What of a ray is asked for: t_near <= t <= t_far, in lengths of the ray's direction. From -infinity to infinity it
-/// is the whole line.
+/// What of a ray is asked for: t_near <= t <= t_far. From -infinity to infinity it is the whole line.
 struct RayRange {
-    double t_near = 0, t_far = std::numeric_limits<double>::infinity();
+    double t_near = 0;                                       ///< In lengths of the ray's direction.
+    double t_far = std::numeric_limits<double>::infinity();  ///< The same.
 };
 
 /// The ranges of a list of rays.
@@ -38,8 +38,10 @@ struct RayRanges {
 /// A parallel one starts at origin + across and runs along `direction`; a pinhole's starts at `origin` and runs along
 /// the unit vector of direction + across.
 struct CSGRT_API RayGrid {
-    Vec3 origin = {}, direction = {};
-    Vec3 right = {}, up = {};  ///< from a ray to the next one in its row, and in its column
+    Vec3 origin = {};  ///< Millimetres.
+    Vec3 direction = {};
+    Vec3 right = {};  ///< From a ray to the next one in its row.
+    Vec3 up = {};     ///< From a ray to the next one in its column.
     int columns = 1, rows = 1;
     bool is_pinhole = false;
 
@@ -85,10 +87,11 @@ private:
 /// Pixels in a plane. The middle of pixel (column, row), counted from the top left, is
 ///     center + (column + 1/2 - width / 2) x right + (height / 2 - row - 1/2) x up.
 struct Slice {
-    Vec3 center = {};
-    Vec3 right = {}, up = {};  ///< from a pixel to the next one in its row, and in its column, millimetres
-    int width = 0, height = 0;
-    bool hidden = true;  ///< false: regions that pictures do not show (State) are not there
+    Vec3 center = {};           ///< Millimetres.
+    Vec3 right = {};            ///< From a pixel to the next one in its row, millimetres.
+    Vec3 up = {};               ///< From a pixel to the next one in its column, millimetres.
+    int width = 0, height = 0;  ///< Pixels.
+    bool hidden = true;         ///< False: regions that pictures do not show (State) are not there.
 };
 
 /// The slice of a box by the plane n . p = offset, n being the unit vector of `normal`: square pixels, seen from the

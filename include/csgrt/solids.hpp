@@ -16,7 +16,7 @@ namespace csgrt {
 /// The half-space normal . p <= distance. The normal counts as a unit vector, whatever its length, and points outward.
 struct Plane {
     Vec3 normal = {};
-    double distance = 0;
+    double distance = 0;  ///< Millimetres, from the origin, whatever the normal's length.
 };
 
 // ---- Solids. Names and parameters are those of BRL-CAD (rtgeom.h in librt). ----

@@ -27,8 +27,6 @@ if TYPE_CHECKING:
 
     Name = Union[str, os.PathLike[str]]
 
-_COLOR, _DISTANCE, _NORMAL, _IDS, _COUNTS, _DISPLAY, _GHOSTS = (1 << bit for bit in range(7))
-
 # What members take, by their annotations in the stub.
 _TAKEN = {"float": "a number", "int": "a whole number", "bool": "True or False", "str": "a string",
           "float | None": "a number or None", "csgrt._values.DeviceChoice": "a number or a name",
@@ -246,18 +244,10 @@ class Scene(_core.Scene):
 
     def _view(self, width: int, height: int, options: _core.ViewKeywords) -> _core.View:
         """What is given replaces what it contradicts in the camera, as the command's options do."""
-        angles = "azimuth" in options or "elevation" in options
-        if angles and "eye" in options:
-            raise ValueError("eye cannot be combined with azimuth or elevation")
-        view = _core.View()
-        members: dict[str, object] = {"camera": self.camera, "width": width, "height": height}
-        if angles or "eye" in options:
-            members.update(eye=None, up=None)
-        if "center" in options or "look_at" in options:
-            members.update(center=None, look_at=None)
-        _assign({**members, **options}, "a view has no", view.camera, view)
-        if view.camera.eye and view.camera.perspective > 0 and "view_size" not in options:
-            view.camera.view_size = None
+        view, given = _core.View(), _core.Camera()
+        _assign({"width": width, "height": height, **options}, "a view has no", given, view)
+        base = view.camera if "camera" in options else self.camera
+        view.camera = base._merged(given, set(options))
         return view
 
     def render(self, width: int = 1024, height: int = 1024, **view: Unpack[_core.ViewKeywords]) -> Image:
@@ -270,9 +260,9 @@ class Scene(_core.Scene):
         """
         made = self._view(width, height, {"every_partition": False, **view})
         if "channels" not in view:
-            made.channels = _COLOR | _DISTANCE | _NORMAL | _IDS | _DISPLAY | _GHOSTS
-            if made.every_partition:
-                made.channels |= _COUNTS
+            made.channels = _core.channels["all"] | _core.channels["display"] | _core.channels["ghosts"]
+            if not made.every_partition:
+                made.channels -= _core.channels["counts"]
         return Image(*self._planes(made))
 
     def pick(self, column: SupportsIndex, row: SupportsIndex, width: int = 1024, height: int = 1024,

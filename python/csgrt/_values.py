@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple, SupportsIndex, TypedDict, Typ
 
 import numpy as np
 
+from ._core import device_members, region_members, solid_members
+
 
 class DeviceName(str):
     """Part of a device's or a platform's name, or choices with commas between them, as a value of the setting `device`:
@@ -20,7 +22,7 @@ if TYPE_CHECKING:  # numpy.typing takes as long to load as csgrt
 
     from numpy.typing import NDArray
 
-    from ._core import State, Status
+    from ._core import Fastgen, State, Status
 
     DeviceChoice = Union[int, Literal["", "cpu", "gpu", "gpus"], DeviceName]
     ThreeNumbers = Union[Sequence[float], NDArray[np.floating[Any]], NDArray[np.integer[Any]]]
@@ -33,8 +35,8 @@ T = TypeVar("T")
 
 def _describe(kind: Any, **members: str) -> None:
     """Gives the members of a NamedTuple docstrings. Those that their names describe have none."""
-    for name in kind._fields:
-        getattr(kind, name).__doc__ = members.get(name, "")
+    for name, sentence in {**dict.fromkeys(kind._fields, ""), **members}.items():
+        getattr(kind, name).__doc__ = sentence
 
 
 def did_you_mean(wrong: str, known: Iterable[str]) -> str:
@@ -132,33 +134,28 @@ class Region(NamedTuple):
 
     id: int
     path: str
-    material: int
-    bounds: Bounds
-    color: Triple
-    state: State
+    fastgen: Fastgen
     region_id: int
     air: int
+    material_id: int
     los: int
+    color: Triple
+    state: State
+    bounds: Bounds
 
 
-_describe(Region, id="The index in Scene.regions",
-          path="The names of the legs on the way down, /all/turret@2; no other region has it",
-          material="BRL-CAD's number of the material", bounds="(low, high), mm; as BRL-CAD computes it, so not always "
-          "tight", color="Red, green, blue; display values, 0 to 1", state='"shown", "ghost" or "hidden"',
-          region_id="BRL-CAD's number of the region, which is not its index",
-          air="BRL-CAD's number of the air; other than 0: a region of air",
-          los="BRL-CAD's percentage of the line of sight")
+_describe(Region, id="The index in Scene.regions", **region_members)
 
 
 class Solid(NamedTuple):
-    """One solid of a scene. csgrt cuts a pipe into several: piece counts them from 0."""
+    """One solid of a scene."""
 
     name: str
     type: str
     piece: int
 
 
-_describe(Solid, type="BRL-CAD's name: ell, tgc, arb8, ...", piece="From 0")
+_describe(Solid, **solid_members)
 
 
 class Regions(Sequence[Region]):
@@ -194,7 +191,7 @@ class Regions(Sequence[Region]):
         lines = [f"{'id':>6}  {'path':{width}}  material  bounds (mm)"]
         for region in shown:
             box = " to ".join("(" + ", ".join(f"{x:.6g}" for x in corner) + ")" for corner in region.bounds)
-            lines.append(f"{region.id:6}  {region.path:{width}}  {region.material:8}  {box}")
+            lines.append(f"{region.id:6}  {region.path:{width}}  {region.material_id:8}  {box}")
         if len(self) > len(shown):
             lines.insert(21, f"   ...  {len(self) - len(shown)} more")
         return "\n".join(lines)
@@ -214,7 +211,7 @@ class Device(NamedTuple):
     fp64: bool
 
 
-_describe(Device, memory="Bytes", max_allocation="Bytes", fp64="It computes in double precision")
+_describe(Device, **device_members)
 
 
 class Pick(NamedTuple):

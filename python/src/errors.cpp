@@ -1,15 +1,10 @@
 // csgrt::Error becomes csgrt.Error, whose class is in Python (csgrt/_values.py).
+#include <form/names.hpp>
+
 #include "values.hpp"
 
 namespace csgrt::python {
 namespace {
-
-constexpr std::pair<std::string_view, Status> status_names[] = {
-    {"usage", Status::usage},         {"scene", Status::scene},
-    {"no_device", Status::no_device}, {"out_of_memory", Status::out_of_memory},
-    {"file", Status::file},           {"device_fault", Status::device_fault},
-    {"differs", Status::differs},     {"interrupted", Status::interrupted},
-};
 
 void raise(const Error& error) {
     const std::string status(name_of(status_names, error.status()));

@@ -13,29 +13,24 @@ Rows device_rows() {
         found = devices();
     }
     Rows rows;
-    for (const DeviceInfo& d : found)
-        rows.append(nb::make_tuple(d.name, d.platform, d.version, d.driver, d.type, d.memory, d.max_allocation,
-                                   d.compute_units, d.fp64));
+    for (const DeviceInfo& d : found) rows.append(row_of(d));
     return rows;
 }
 
 Numpy<double> rays_of(const RayGrid& grid) {
-    auto rays = std::make_unique<Array<Ray>>();
+    auto rays = std::make_unique<std::vector<Ray>>();
     {
         nb::gil_scoped_release unlocked;
-        rays->resize(grid.size());
-        Ray* next = rays->data();
-        for (int row = 0; row < grid.rows; ++row)
-            for (int column = 0; column < grid.columns; ++column) *next++ = grid.ray(column, row);
+        *rays = grid.rays();
     }
     Ray* const data = rays->data();
     return array(data, {std::size_t(grid.rows), std::size_t(grid.columns)}, keeper(rays));
 }
 
 Numpy<double> parallel(const Box& box, const std::string& axis, std::pair<int, int> pixels) {
-    if (axis != "x" && axis != "y" && axis != "z")
-        throw nb::value_error("the axis of parallel rays is \"x\", \"y\" or \"z\"");
-    return rays_of(rays_parallel(box, Axis(axis[0] - 'x'), pixels.first, pixels.second));
+    const auto refusal = [](const std::string& text) { return nb::value_error(text.c_str()); };
+    const Axis along = value_of(axis_names, "the axis of parallel rays", axis, refusal);
+    return rays_of(rays_parallel(box, along, pixels.first, pixels.second));
 }
 
 Numpy<double> pinhole(double vertical_fov, const Vec3& center, const Vec3& eye, const Vec3& up, int width, int height) {
@@ -52,6 +47,12 @@ NB_MODULE(_core, module) {
     nb::class_<Scene>(module, "Source", "A scene as it was read. A Scene takes what is in it.");
     bind_scene(module);
     module.attr("version") = version();
+    module.attr("region_members") = sentences<RegionInfo>();
+    module.attr("solid_members") = sentences<SolidInfo>();
+    module.attr("device_members") = sentences<DeviceInfo>();
+    nb::dict channels;
+    for (const auto& [name, bits] : channel_names) channels[std::string(name).c_str()] = bits;
+    module.attr("channels") = channels;
     module.def(
         "load",
         [](const std::string& path, bool strict, std::vector<std::string> folders, const Settings& settings) {

@@ -12,12 +12,7 @@
 namespace csgrt::python {
 namespace {
 
-constexpr std::pair<std::string_view, State> state_names[] = {
-    {"shown", State::shown}, {"ghost", State::ghost}, {"hidden", State::hidden}};
-constexpr std::pair<std::string_view, Operator> operator_names[] = {{"union", Operator::union_},
-                                                                    {"intersection", Operator::intersection},
-                                                                    {"difference", Operator::difference},
-                                                                    {"xor", Operator::xor_}};
+const auto joining = std::span(operator_names).subspan(1, 4);  ///< operators that join an object to a tree
 
 Error usage(const std::string& text) { return {Status::usage, text}; }
 
@@ -160,17 +155,14 @@ private:
 Rows region_rows(const LiveScene& scene) {
     Rows rows;
     const Model model = scene.model();
-    for (const RegionInfo& r : model.regions()) {
-        rows.append(nb::make_tuple(rows.size(), r.path, r.material_id, r.bounds, r.color,
-                                   std::string(name_of(state_names, r.state)), r.region_id, r.air, r.los));
-    }
+    for (const RegionInfo& r : model.regions()) rows.append(row_of(r, rows.size()));
     return rows;
 }
 
 Rows solid_rows(const LiveScene& scene) {
     Rows rows;
     const Model model = scene.model();
-    for (const SolidInfo& s : model.solids()) rows.append(nb::make_tuple(s.name, s.type, s.piece));
+    for (const SolidInfo& s : model.solids()) rows.append(row_of(s));
     return rows;
 }
 
@@ -335,7 +327,8 @@ Figures verify(LiveScene& scene, std::size_t rays, std::uint64_t seed) {
 void bind_scene(nb::module_& module) {
     using namespace nb::literals;
     module.attr("State") = literal(state_names);
-    module.attr("Operator") = literal(operator_names);
+    module.attr("Fastgen") = literal(fastgen_names);
+    module.attr("Operator") = literal(joining);
     nb::class_<LiveScene>(module, "Scene", "What csgrt.Scene is made of.")
         .def(nb::init<Scene&, std::vector<std::string>, const Settings&>(), "source"_a, "objects"_a, "settings"_a)
         .def("_region_rows", &region_rows)
@@ -405,7 +398,7 @@ void bind_scene(nb::module_& module) {
              [](LiveScene& scene, const std::string& combination, const std::string& op, const std::string& object,
                 const Matrices& matrix) {
                  scene.edit([&](Edit& e) {
-                     e.add(combination, value_of(operator_names, "an operator", op, usage), object, matrix_of(matrix));
+                     e.add(combination, value_of(joining, "an operator", op, usage), object, matrix_of(matrix));
                  });
              })
         .def(

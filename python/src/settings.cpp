@@ -1,16 +1,18 @@
 // How csgrt computes and what a picture shows, as classes: the attributes, and what is said of them, are those of the
 // descriptions (src/form/requests.hpp).
-#include <form/requests.hpp>
+#include <form/camera.hpp>
+
+#include <nanobind/stl/set.h>
 
 #include "values.hpp"
 
 namespace csgrt::python {
 namespace {
 
-/// A member whose values have names in C++ (csgrt/method.hpp), which Python's attribute takes.
-template <class Value, std::size_t count>
-void named(nb::class_<Settings>& bound, const char* name, Value Settings::*member,
-           const std::pair<std::string_view, Value> (&names)[count], const char* doc) {
+/// A member whose values have names in C++ (form/names.hpp), which Python's attribute takes.
+template <class Value, class Names>
+void named(nb::class_<Settings>& bound, const char* name, Value Settings::*member, const Names& names,
+           const char* doc) {
     bound.def_prop_rw(
         name, [&names, member](const Settings& s) { return std::string(name_of(names, s.*member)); },
         [&names, member, name = std::string(name)](Settings& s, const std::string& given) {
@@ -34,7 +36,7 @@ void bind_member(nb::class_<S>& bound, const Member& member) {
                   std::is_same_v<Value, std::optional<PixelRectangle>>) {
         // Ctrl-C ends a call; a part of a picture is a slice of its array.
     } else if constexpr (std::is_enum_v<Value>) {
-        named(bound, name, at, *member.kind.names, member.help);
+        named(bound, name, at, *member.kind.offered, member.help);
     } else if constexpr (std::is_same_v<Value, std::string>) {
         bound.def_prop_rw(
             name, [at](const S& s) { return s.*at; },
@@ -73,7 +75,16 @@ void bind_settings(nb::module_& module) {
     bind<Settings>(module, "Settings",
                    "How csgrt computes. load(), parse() and Scene take any of these attributes as a keyword.")
         .def(nb::init<>());
-    bind<Camera>(module, "Camera", "From where a picture is taken. Millimetres, degrees.");
+    bind<Camera>(module, "Camera", "From where a picture is taken. Millimetres, degrees.")
+        .def(nb::init<>())
+        .def("_merged", [](const Camera& camera, const Camera& given, const std::set<std::string>& members) {
+            const auto is_given = [&](std::string_view member) { return members.contains(std::string(member)); };
+            if (const CameraConflict* conflict = conflict_of(given, is_given))
+                throw nb::value_error((std::string(conflict->member) + " cannot be combined with " +
+                                       std::string(conflict->other) + ": " + conflict->reason)
+                                          .c_str());
+            return merged(camera, given, is_given);
+        });
     bind<View>(module, "View", "What a picture shows.").def(nb::init<>());
 }
 

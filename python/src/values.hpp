@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <csgrt/csgrt.hpp>
+#include <form/answers.hpp>
 #include <nanobind/nanobind.h>
 #include <nanobind/ndarray.h>
 #include <nanobind/stl/array.h>
@@ -106,9 +107,8 @@ auto array(Array<T>& values, nb::handle kept) {
 }
 
 /// The value of that name. Throws refusal(sentence) if there is none.
-template <class Value, std::size_t count, class Refusal>
-Value value_of(const std::pair<std::string_view, Value> (&names)[count], const std::string& what,
-               const std::string& given, const Refusal& refusal) {
+template <class Names, class Refusal>
+auto value_of(const Names& names, const std::string& what, const std::string& given, const Refusal& refusal) {
     std::string known;
     for (const auto& [name, value] : names) {
         if (given == name) return value;
@@ -118,11 +118,38 @@ Value value_of(const std::pair<std::string_view, Value> (&names)[count], const s
 }
 
 /// The type of a string that is one of these names, in the stub.
-template <class Value, std::size_t count>
-std::string literal(const std::pair<std::string_view, Value> (&names)[count]) {
+template <class Names>
+std::string literal(const Names& names) {
     std::string text;
     for (const auto& [name, value] : names) text += (text.empty() ? "'" : ", '") + std::string(name) + "'";
     return "typing.Literal[" + text + "]";
+}
+
+/// What Python's class of a described struct has: its members in their order, names in place of enumerations.
+template <class S, class... First>
+nb::object row_of(const S& s, const First&... first) {
+    nb::list row;
+    (row.append(first), ...);
+    form::for_members(form::of<S>, [&](const auto& member) {
+        const auto& value = s.*member.at;
+        using Value = std::remove_cvref_t<decltype(value)>;
+        if constexpr (std::is_enum_v<Value>)
+            row.append(std::string(name_of(*member.kind.names, value)));
+        else if constexpr (!std::is_same_v<Value, Finish>)
+            row.append(value);
+    });
+    return nb::tuple(row);
+}
+
+/// What the members of a described struct mean, by their names.
+template <class S>
+nb::dict sentences() {
+    nb::dict all;
+    form::for_members(form::of<S>, [&](const auto& member) {
+        if constexpr (!std::is_same_v<std::remove_cvref_t<decltype(member.kind)>, form::Special>)
+            all[std::string(member.key.member).c_str()] = member.help;
+    });
+    return all;
 }
 
 nb::tuple place_row(const Place& place);  ///< the members of csgrt.Place

@@ -80,17 +80,7 @@ Settings settings_of(const csgrt_settings* settings) {
 }
 
 Camera camera_of(const csgrt_camera* camera) {
-    const csgrt_camera c = read(camera, csgrt_camera CSGRT_CAMERA, "camera");
-    return {
-        .azimuth = c.azimuth,
-        .elevation = c.elevation,
-        .perspective = c.perspective,
-        .center = of(c.center),
-        .view_size = c.view_size == 0 ? std::nullopt : std::optional(c.view_size),
-        .eye = of(c.eye),
-        .look_at = of(c.look_at),
-        .up = of(c.up),
-    };
+    return described<Camera>(read(camera, csgrt_camera CSGRT_CAMERA, "camera"), "camera");
 }
 
 Finish finish_of(const csgrt_finish* finish) {
@@ -126,13 +116,6 @@ Matrix matrix_of(const double* matrix) {
     Matrix all = identity;
     if (matrix) std::copy(matrix, matrix + all.size(), all.begin());
     return all;
-}
-
-RayGrid grid_of(const csgrt_ray_grid& g) {
-    return {of(g.origin), of(g.direction), of(g.right), of(g.up), g.columns, g.rows, g.is_pinhole != 0};
-}
-csgrt_ray_grid grid_of(const RayGrid& g) {
-    return {of(g.origin), of(g.direction), of(g.right), of(g.up), g.columns, g.rows, g.is_pinhole};
 }
 
 csgrt_diagnostic diagnostic_of(const Warning& warning) {

@@ -146,8 +146,6 @@ Finish finish_of(const csgrt_finish* finish);
 std::vector<Light> lights_of(const csgrt_light* lights, std::size_t count);
 View view_of(const csgrt_view* view);
 Matrix matrix_of(const double* matrix);
-RayGrid grid_of(const csgrt_ray_grid& grid);
-csgrt_ray_grid grid_of(const RayGrid& grid);
 csgrt_diagnostic diagnostic_of(const Warning& warning);
 
 }  // namespace csgrt::c

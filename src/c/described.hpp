@@ -1,4 +1,5 @@
-// C's structs by their descriptions (form/requests.hpp): their members stand in the order of its lines.
+// C's structs by their descriptions (form/requests.hpp, form/answers.hpp): their members stand in the order of its
+// lines, behind the size of those that may grow.
 #pragma once
 
 #include <cstddef>
@@ -10,37 +11,58 @@
 #include <vector>
 
 #include "c/call.hpp"
+#include "form/answers.hpp"
 #include "form/requests.hpp"
 
 namespace csgrt::c {
 
-/// The members of a C struct, one after the other, each where its alignment has it.
+/// The members of a C struct, one after the other, each where its alignment has it. `Byte`: const where they are read.
+template <class Byte>
 class CMembers {
 public:
     template <class C>
-    explicit CMembers(const C& of) : bytes_(reinterpret_cast<const std::byte*>(&of)) {
-        next<std::size_t>();  // the size
+    explicit CMembers(C& of) : bytes_(reinterpret_cast<Byte*>(&of)), size_(sizeof(C)), alignment_(alignof(C)) {
+        if constexpr (requires { of.size; }) place<std::size_t>();
     }
     template <class T>
     T next() {
-        at_ = (at_ + alignof(T) - 1) / alignof(T) * alignof(T);
         T value;
-        std::memcpy(&value, bytes_ + at_, sizeof(T));
-        at_ += sizeof(T);
+        std::memcpy(&value, place<T>(), sizeof(T));
         return value;
     }
-    /// Behind the last member. The struct ends there, but for its alignment.
-    std::size_t end() const { return at_; }
+    template <class T>
+    void put(const T& value) {
+        std::memcpy(place<T>(), &value, sizeof(T));
+    }
+    /// Throws unless the struct ends behind the last member that was asked for.
+    void expect_end(const char* name) const {
+        if ((at_ + alignment_ - 1) / alignment_ * alignment_ != size_)
+            throw std::logic_error(std::string(name) + ": the description has other members");
+    }
 
 private:
-    const std::byte* bytes_;
-    std::size_t at_ = 0;
+    template <class T>
+    Byte* place() {
+        at_ = (at_ + alignof(T) - 1) / alignof(T) * alignof(T);
+        Byte* const place = bytes_ + at_;
+        at_ += sizeof(T);
+        return place;
+    }
+
+    Byte* bytes_;
+    std::size_t size_, alignment_, at_ = 0;
 };
 
 template <class Member, class Value>
-void read_member(CMembers& members, const Member& member, Value& value, const std::string& name) {
+void read_member(CMembers<const std::byte>& members, const Member& member, Value& value, const std::string& name) {
     if constexpr (std::is_same_v<Value, bool>) {
         value = members.next<int>() != 0;
+    } else if constexpr (std::is_same_v<Value, Vec3>) {
+        value = of(members.next<csgrt_vec3>());
+    } else if constexpr (std::is_same_v<Value, std::optional<Vec3>>) {
+        value = of(members.next<const csgrt_vec3*>());
+    } else if constexpr (std::is_same_v<Value, std::optional<double>>) {
+        if (const auto given = members.next<double>(); given != 0) value = given;
     } else if constexpr (std::is_same_v<Value, std::string>) {
         value = text_or_empty(members.next<const char*>());
     } else if constexpr (std::is_same_v<Value, std::vector<std::string>>) {
@@ -54,15 +76,13 @@ void read_member(CMembers& members, const Member& member, Value& value, const st
         if (const auto camera = members.next<const csgrt_camera*>()) value = camera_of(camera);
     } else if constexpr (std::is_same_v<Value, std::optional<PixelRectangle>>) {
         if (const auto part = members.next<const csgrt_pixel_rectangle*>())
-            value = {part->left, part->top, part->width, part->height};
+            value = *same_layout<const PixelRectangle>(part);
     } else if constexpr (std::is_same_v<Value, std::function<bool(double)>>) {
         const auto call = members.next<csgrt_progress>();
         void* const user = members.next<void*>();
         if (call) value = [call, user](double done) { return call(user, done) != 0; };
     } else if constexpr (std::is_enum_v<Value>) {
-        Value last{};
-        for (const auto& [text, named] : *member.kind.names) last = std::max(last, named);
-        value = choice(members.next<int>(), last, name.c_str());
+        value = choice(members.next<int>(), std::end(*member.kind.names)[-1].second, name.c_str());
     } else {
         value = members.next<Value>();
     }
@@ -72,12 +92,43 @@ void read_member(CMembers& members, const Member& member, Value& value, const st
 template <class S, class C>
 S described(const C& given, const char* name) {
     S all;
-    CMembers members(given);
+    CMembers<const std::byte> members(given);
     form::for_members(form::of<S>, [&](const auto& member) {
-        read_member(members, member, all.*member.at, std::string(name) + "->" + std::string(member.key.member));
+        read_member(members, member, form::member_of(member, all),
+                    std::string(name) + "->" + std::string(member.key.member));
     });
-    if ((members.end() + alignof(C) - 1) / alignof(C) * alignof(C) != sizeof(C))
-        throw std::logic_error(std::string(name) + ": the description has other members");
+    members.expect_end(name);
+    return all;
+}
+
+template <class Value>
+void write_member(CMembers<std::byte>& members, const Value& value) {
+    if constexpr (std::is_same_v<Value, bool> || std::is_enum_v<Value>) {
+        members.put(static_cast<int>(value));
+    } else if constexpr (std::is_same_v<Value, Vec3> || std::is_same_v<Value, Box> ||
+                         std::is_same_v<Value, std::optional<Vec3>>) {
+        members.put(of(value));
+    } else if constexpr (std::is_same_v<Value, std::optional<double>>) {
+        members.put(value.value_or(0));
+    } else if constexpr (std::is_same_v<Value, std::string>) {
+        members.put(value.c_str());
+    } else {
+        static_assert(std::is_arithmetic_v<Value>);
+        members.put(value);
+    }
+}
+
+/// The C struct of a C++ one, whose texts and points it shows.
+template <class C, class S>
+C shown(const S& of) {
+    C all;
+    std::memset(&all, 0, sizeof all);
+    CMembers<std::byte> members(all);
+    form::for_members(form::of<S>, [&](const auto& member) {
+        if constexpr (!std::is_same_v<std::remove_cvref_t<decltype(member.kind)>, form::Special>)
+            write_member(members, form::member_of(member, of));
+    });
+    members.expect_end("the answer");
     return all;
 }
 

@@ -1,4 +1,4 @@
-#include "c/call.hpp"
+#include "c/described.hpp"
 
 using namespace csgrt;
 using namespace csgrt::c;
@@ -25,13 +25,7 @@ csgrt_status csgrt_model_get_info(const csgrt_model* model, csgrt_model_info* in
 }
 
 csgrt_status csgrt_model_region(const csgrt_model* model, size_t index, csgrt_region_info* info) {
-    return call([&] {
-        const RegionInfo& r = item(CSGRT_NEED(model).model.regions(), index);
-        fill(info,
-             {0, r.path.c_str(), static_cast<int>(r.fastgen), r.region_id, r.air, r.material_id, r.los,
-              static_cast<int>(r.state), of(r.color), of(r.bounds)},
-             "info");
-    });
+    return call([&] { fill(info, shown<csgrt_region_info>(item(CSGRT_NEED(model).model.regions(), index)), "info"); });
 }
 
 csgrt_status csgrt_model_finish(const csgrt_model* model, size_t region, csgrt_finish* finish) {
@@ -61,10 +55,7 @@ csgrt_status csgrt_model_finish(const csgrt_model* model, size_t region, csgrt_f
 }
 
 csgrt_status csgrt_model_solid(const csgrt_model* model, size_t index, csgrt_solid_info* info) {
-    return call([&] {
-        const SolidInfo& s = item(CSGRT_NEED(model).model.solids(), index);
-        fill(info, {0, s.name.c_str(), s.type.c_str(), s.piece}, "info");
-    });
+    return call([&] { fill(info, shown<csgrt_solid_info>(item(CSGRT_NEED(model).model.solids(), index)), "info"); });
 }
 
 csgrt_status csgrt_model_warning(const csgrt_model* model, size_t index, csgrt_diagnostic* warning) {
@@ -79,7 +70,7 @@ csgrt_status csgrt_model_pick(const csgrt_model* model, const csgrt_view* view, 
 }
 
 csgrt_status csgrt_model_grid_of(const csgrt_model* model, const csgrt_view* view, csgrt_ray_grid* grid) {
-    return call([&] { CSGRT_NEED(grid) = grid_of(CSGRT_NEED(model).model.grid_of(view_of(view))); });
+    return call([&] { CSGRT_NEED(grid) = shown<csgrt_ray_grid>(CSGRT_NEED(model).model.grid_of(view_of(view))); });
 }
 
 // ---- Edits ----

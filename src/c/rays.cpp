@@ -1,9 +1,21 @@
-#include "c/call.hpp"
+#include "c/described.hpp"
 
 using namespace csgrt;
 using namespace csgrt::c;
 
 namespace {
+
+/// Of the bits CSGRT_FIELD_..., in the order of the description's lines.
+Fields fields_of(unsigned bits) {
+    Fields fields;
+    unsigned bit = 1;
+    form::for_members(form::of<Fields>, [&](const auto& member) {
+        fields.*member.at = ((bits & bit) != 0) != member.option.is_off;
+        bit *= 2;
+    });
+    if (bits >= bit) refuse("rays->fields is " + std::to_string(bits) + ", expected CSGRT_FIELD_...");
+    return fields;
+}
 
 /// What of which rays a call is asked for.
 struct Asked {
@@ -16,17 +28,13 @@ struct Asked {
         if (r.grid && r.list) refuse("rays->grid and rays->list are both given");
         if (r.ranges && r.range_count == 0) refuse("rays->ranges is given, and rays->range_count is 0");
         if (r.grid) {
-            rays = grid_of(*r.grid);
+            rays = described<RayGrid>(*r.grid, "rays->grid");
         } else {
             rays = std::span(same_layout<const Ray>(r.list), needed(r.list, r.count, "rays->list").size());
         }
         ranges.all = {r.range.t_near, r.range.t_far};
         ranges.each = {same_layout<const RayRange>(r.ranges), needed(r.ranges, r.range_count, "rays->ranges").size()};
-        if (r.fields > 15) refuse("rays->fields is " + std::to_string(r.fields) + ", expected CSGRT_FIELD_...");
-        fields = {.solids = (r.fields & CSGRT_FIELD_SOLIDS) != 0,
-                  .normals = (r.fields & CSGRT_FIELD_NORMALS) != 0,
-                  .overlaps = (r.fields & CSGRT_FIELD_OVERLAPS) != 0,
-                  .hidden = (r.fields & CSGRT_FIELD_WITHOUT_HIDDEN) == 0};
+        fields = fields_of(r.fields);
     }
 };
 
@@ -80,7 +88,7 @@ void region_at(Tracer& tracer, std::span<const csgrt_vec3> points, std::span<std
 
 template <class Tracer>
 void slice(Tracer& tracer, const csgrt_slice& s, std::span<std::int32_t> ids, Array<std::int32_t>& answer) {
-    const Slice slice{of(s.center), of(s.right), of(s.up), s.width, s.height, s.hidden != 0};
+    const auto slice = described<Slice>(s, "slice");
     if (s.width > 0 && s.height > 0) {
         expect_count(ids.size(), std::uint64_t(s.width) * std::uint64_t(s.height), "pixel");
     }
@@ -92,27 +100,28 @@ void slice(Tracer& tracer, const csgrt_slice& s, std::span<std::int32_t> ids, Ar
 
 csgrt_status csgrt_rays_parallel(const csgrt_box* box, int axis, int columns, int rows, csgrt_ray_grid* grid) {
     return call([&] {
-        CSGRT_NEED(grid) = grid_of(rays_parallel(of(CSGRT_NEED(box)), choice(axis, Axis::z, "axis"), columns, rows));
+        CSGRT_NEED(grid) =
+            shown<csgrt_ray_grid>(rays_parallel(of(CSGRT_NEED(box)), choice(axis, Axis::z, "axis"), columns, rows));
     });
 }
 
 csgrt_status csgrt_rays_pinhole(double vertical_fov, const csgrt_vec3* center, const csgrt_vec3* eye,
                                 const csgrt_vec3* up, int width, int height, csgrt_ray_grid* grid) {
     return call([&] {
-        CSGRT_NEED(grid) = grid_of(
+        CSGRT_NEED(grid) = shown<csgrt_ray_grid>(
             rays_pinhole(vertical_fov, of(CSGRT_NEED(center)), of(CSGRT_NEED(eye)), of(CSGRT_NEED(up)), width, height));
     });
 }
 
 csgrt_status csgrt_ray_grid_ray(const csgrt_ray_grid* grid, int column, int row, csgrt_ray* ray) {
-    return call([&] { CSGRT_NEED(ray) = of(grid_of(CSGRT_NEED(grid)).ray(column, row)); });
+    return call([&] { CSGRT_NEED(ray) = of(described<RayGrid>(CSGRT_NEED(grid), "grid").ray(column, row)); });
 }
 
 csgrt_status csgrt_slice_of(const csgrt_box* box, const csgrt_vec3* normal, double offset, int width, int height,
                             csgrt_slice* slice) {
     return call([&] {
-        const Slice s = slice_of(of(CSGRT_NEED(box)), of(CSGRT_NEED(normal)), offset, width, height);
-        CSGRT_NEED(slice) = {of(s.center), of(s.right), of(s.up), s.width, s.height, s.hidden};
+        CSGRT_NEED(slice) =
+            shown<csgrt_slice>(slice_of(of(CSGRT_NEED(box)), of(CSGRT_NEED(normal)), offset, width, height));
     });
 }
 

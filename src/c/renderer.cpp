@@ -1,6 +1,6 @@
 #include <bit>
 
-#include "c/call.hpp"
+#include "c/described.hpp"
 
 using namespace csgrt;
 using namespace csgrt::c;
@@ -24,13 +24,7 @@ csgrt_status csgrt_devices(size_t* count) {
 }
 
 csgrt_status csgrt_device(size_t index, csgrt_device_info* info) {
-    return call([&] {
-        const DeviceInfo& d = item(found, index);
-        fill(info,
-             {0, d.name.c_str(), d.platform.c_str(), d.version.c_str(), d.driver.c_str(), d.type.c_str(), d.memory,
-              d.max_allocation, d.compute_units, d.fp64},
-             "info");
-    });
+    return call([&] { fill(info, shown<csgrt_device_info>(item(found, index)), "info"); });
 }
 
 csgrt_status csgrt_prepare_devices(const csgrt_settings* settings) {
@@ -55,13 +49,8 @@ csgrt_status csgrt_renderer_set_model(csgrt_renderer* renderer, const csgrt_mode
 }
 
 csgrt_status csgrt_renderer_statistics(const csgrt_renderer* renderer, csgrt_statistics* statistics) {
-    return call([&] {
-        const Statistics& s = CSGRT_NEED(renderer).renderer.statistics();
-        fill(statistics,
-             {0, s.device.c_str(), s.awaited_device.c_str(), s.rays, s.segments, s.partitions_used, s.overlaps,
-              s.device_bytes, s.ms.compile, s.ms.build, s.ms.kernels, s.ms.frame},
-             "statistics");
-    });
+    return call(
+        [&] { fill(statistics, shown<csgrt_statistics>(CSGRT_NEED(renderer).renderer.statistics()), "statistics"); });
 }
 
 csgrt_status csgrt_renderer_device_warning_count(const csgrt_renderer* renderer, size_t* count) {

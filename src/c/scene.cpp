@@ -1,6 +1,6 @@
 #include <charconv>
 
-#include "c/call.hpp"
+#include "c/described.hpp"
 #include "c/described.hpp"
 
 using namespace csgrt;
@@ -174,13 +174,7 @@ csgrt_status csgrt_scene_add_combination(csgrt_scene* scene, const csgrt_combina
 }
 
 csgrt_status csgrt_scene_camera(const csgrt_scene* scene, csgrt_camera* camera) {
-    return call([&] {
-        const Camera& c = CSGRT_NEED(scene).scene.camera;
-        fill(camera,
-             {0, c.azimuth, c.elevation, c.perspective, c.view_size.value_or(0), of(c.center), of(c.eye), of(c.look_at),
-              of(c.up)},
-             "camera");
-    });
+    return call([&] { fill(camera, shown<csgrt_camera>(CSGRT_NEED(scene).scene.camera), "camera"); });
 }
 
 csgrt_status csgrt_scene_set_camera(csgrt_scene* scene, const csgrt_camera* camera) {

@@ -101,7 +101,7 @@ void define(Options& options, RenderArguments& arguments) {
                    formats);
     define_size(options, arguments.picture.width, arguments.picture.height);
     define_members(options, arguments.picture.camera, form::Concern::picture, [&](const auto& member, Option& option) {
-        option.accept = [accept = option.accept, &arguments, name = member.option.name](const auto& text) {
+        option.accept = [accept = option.accept, &arguments, name = std::string(member.key.member)](const auto& text) {
             arguments.given.insert(name);
             return accept(text);
         };

@@ -51,7 +51,7 @@ Option& define_member(Options& options, const Member& member, Target& target) {
         return options.value(o.name, o.value, help + "; such as 512M or 2G, too (powers of 1024)", target, parse_memory,
                              o.expected);
     } else if constexpr (std::is_enum_v<Target>) {
-        return options.choice(o.name, help, target, *member.kind.names);
+        return options.choice(o.name, help, target, *member.kind.offered);
     } else if constexpr (std::is_integral_v<Target>) {
         return options.count(o.name, help, target, static_cast<std::uint64_t>(member.kind.low),
                              static_cast<std::uint64_t>(member.kind.high));

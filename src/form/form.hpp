@@ -83,11 +83,15 @@ struct Amount {
 };
 struct Bytes {};  ///< of memory, which the command takes as "2G", too
 struct Texts {};
+struct Boxed {};  ///< a box: its low and its high corner
 struct Planes {};
-/// One of a table's values, which has a name (csgrt/method.hpp).
-template <class Names>
+/// One of a table's values, which has a name (form/names.hpp).
+template <class Names, class Offered = Names>
 struct Named {
     const Names* names;
+    const Offered* offered;  ///< those that the command and Python take
+    constexpr Named(const Names* all) : names(all), offered(all) {}
+    constexpr Named(const Names* all, const Offered* some) : names(all), offered(some) {}
 };
 template <class Names>
 Named(const Names*) -> Named<Names>;
@@ -114,6 +118,7 @@ inline constexpr Amount amount{};
 inline constexpr Bytes bytes{};
 inline constexpr Texts texts{};
 inline constexpr Planes planes{};
+inline constexpr Boxed box{};
 inline constexpr Special special{};
 inline constexpr Whole byte{0, 255};
 inline constexpr Whole integer{std::numeric_limits<int>::min(), std::numeric_limits<int>::max()};
@@ -295,6 +300,12 @@ inline constexpr auto of = Undescribed{};
 template <class Each, class... Members>
 constexpr void for_members(const Form<Members...>& form, Each each) {
     std::apply([&](const auto&... member) { (each(member), ...); }, form.members);
+}
+
+/// A member of a struct, which `at` points at or is called with.
+template <class Member, class S>
+constexpr auto& member_of(const Member& member, S& s) {
+    return std::invoke(member.at, s);
 }
 
 /// What a file means that does not give optional members.

@@ -7,7 +7,7 @@
 #include <csgrt/settings.hpp>
 #include <csgrt/view.hpp>
 
-#include "form/form.hpp"
+#include "form/names.hpp"
 
 namespace csgrt::form {
 
@@ -61,10 +61,10 @@ inline constexpr auto of<Settings> = Form{
         "max_instances", &Settings::max_instances, Amount{1, Limits::most_instances},
         "Most solids of the model, as often as its trees use them; they are counted before any is made.",
         {.concern = Concern::model, .name = "--max-instances", .value = "N", .absent = "what docs/limits.md says"}),
-    optional("precision", &Settings::precision, Named{&precision_names},
+    optional("precision", &Settings::precision, Named{&every_precision, &precision_names},
              "Numbers of the geometry; single ones are relative to the eye.",
              {.concern = Concern::work, .name = "--precision", .absent = "double"}),
-    optional("tolerance_rule", &Settings::tolerance_rule, Named{&tolerance_names},
+    optional("tolerance_rule", &Settings::tolerance_rule, Named{&every_tolerance, &tolerance_names},
              "Which ends of segments along a ray count as one.", {.concern = Concern::work}),
     optional("tolerance", &Settings::tolerance, number,
              "Millimetres along a ray, for the rule of a length; negative: the scene's.", {.concern = Concern::work}),

@@ -1,30 +1,15 @@
-// The operators of a tree: their names, and how many operands they take.
+// The operators of a tree: how they are called, and how many operands they take.
 #pragma once
 
 #include <cstdint>
 #include <string_view>
-#include <utility>
 
-#include <csgrt/scene.hpp>
+#include "form/names.hpp"
 
 namespace csgrt {
 
-inline constexpr std::pair<Operator, std::string_view> operator_names[] = {
-    {Operator::union_, "union"},
-    {Operator::intersection, "intersection"},
-    {Operator::difference, "difference"},
-    {Operator::xor_, "xor"},
-    {Operator::not_, "not"},
-    {Operator::leaf, "leaf"},
-};
-
 /// Empty for a value that is no operator.
-constexpr std::string_view operator_name(Operator op) {
-    for (const auto& [value, name] : operator_names) {
-        if (value == op) return name;
-    }
-    return {};
-}
+constexpr std::string_view operator_name(Operator op) { return name_of(operator_names, op); }
 
 constexpr bool takes(Operator op, std::uint64_t arity) {
     switch (op) {

@@ -6,6 +6,7 @@
 
 #include <csgrt/error.hpp>
 
+#include "form/names.hpp"
 #include "form/requests.hpp"
 
 namespace csgrt {
@@ -18,9 +19,7 @@ constexpr std::array<std::pair<std::string_view, Show>, 6> shows{{{"color", Show
                                                                   {"region", Show::region},
                                                                   {"overlap", Show::overlap},
                                                                   {"segments", Show::segments}}};
-constexpr std::array<std::pair<std::string_view, State>, 3> states{
-    {{"shown", State::shown}, {"ghost", State::ghost}, {"hidden", State::hidden}}};
-constexpr int most_samples = 256, most_nested = 16;
+constexpr int most_nested = 16;
 
 template <class Names>
 auto named(const Names& names, const Request& request, const char* member) {
@@ -30,14 +29,24 @@ auto named(const Names& names, const Request& request, const char* member) {
     throw Error(Status::usage, std::string(member) + ": there is no '" + name + "'");
 }
 
-Camera read_camera(const Request& request) {
-    Camera camera;
-    camera.azimuth = request.number("azimuth");
-    camera.elevation = request.number("elevation");
-    camera.perspective = request.number("perspective");
-    camera.center = request.vector("center");
-    camera.view_size = request.number("view_size");
-    return camera;
+/// The numbers, flags and points that a request gives of a camera or a view.
+template <class S>
+void read_members(const Request& request, S& s) {
+    form::for_members(form::of<S>, [&](const auto& member) {
+        auto& value = s.*member.at;
+        using Value = std::remove_cvref_t<decltype(value)>;
+        const std::string key(member.key.member);
+        const char* const name = key.c_str();
+        if (!request.has(name)) return;
+        if constexpr (std::is_same_v<Value, bool>)
+            value = request.flag(name);
+        else if constexpr (std::is_same_v<Value, int>)
+            value = request.count(name, member.kind.low, std::min(member.kind.high, most_pixels_of_side));
+        else if constexpr (std::is_same_v<Value, double> || std::is_same_v<Value, std::optional<double>>)
+            value = request.number(name);
+        else if constexpr (std::is_same_v<Value, std::optional<Vec3>>)
+            value = request.vector(name);
+    });
 }
 
 }  // namespace
@@ -116,31 +125,19 @@ std::vector<Request> Request::objects(const char* member) const {
 Asked read_asked(const Request& request) {
     Asked asked;
     const Request view = request.object("view");
-    asked.view.camera = read_camera(view.object("camera"));
+    read_members(view.object("camera"), asked.view.camera);
     for (const Request& plane : view.objects("clip"))
         asked.view.clip.push_back({plane.vector("normal"), plane.number("distance")});
     for (const Request& one : view.objects("looks")) {
         Look look{.path = one.text("path")};
-        if (one.has("state")) look.state = named(states, one, "state");
+        if (one.has("state")) look.state = named(state_names, one, "state");
         if (one.has("color")) look.color = one.vector("color");
         asked.looks.push_back(std::move(look));
     }
-    form::for_members(form::of<View>, [&](const auto& member) {
-        auto& value = asked.view.*member.at;
-        const std::string name(member.key.member);
-        if constexpr (std::is_same_v<std::remove_cvref_t<decltype(value)>, bool>) {
-            if (view.has(name.c_str())) value = view.flag(name.c_str());
-        } else if constexpr (std::is_same_v<std::remove_cvref_t<decltype(member.kind)>, form::Whole>) {
-            if (view.has(name.c_str())) value = view.count(name.c_str(), member.kind.low, member.kind.high);
-        }
-    });
     if (view.has("show")) asked.show = named(shows, view, "show");
     asked.view.width = asked.view.height = 1;
-    if (request.has("width")) {
-        asked.view.width = request.count("width", 1, most_pixels_of_side);
-        asked.view.height = request.count("height", 1, most_pixels_of_side);
-    }
-    if (request.has("samples")) asked.view.samples = request.count("samples", 1, most_samples);
+    read_members(view, asked.view);
+    read_members(request, asked.view);
     asked.view.every_partition = asked.show == Show::overlap || asked.show == Show::segments;
     return asked;
 }
@@ -152,10 +149,6 @@ Slice read_slice(const Request& request) {
             .width = request.count("width", 1, most_pixels_of_side),
             .height = request.count("height", 1, most_pixels_of_side),
             .hidden = false};
-}
-
-std::string_view name_of(State state) {
-    return std::ranges::find(states, state, &std::pair<std::string_view, State>::second)->first;
 }
 
 Json to_json(const Vec3& v) { return {v.x, v.y, v.z}; }

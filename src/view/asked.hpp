@@ -61,6 +61,5 @@ Slice read_slice(const Request& request);
 
 Json to_json(const Vec3& v);
 /// As requests have it.
-std::string_view name_of(State state);
 
 }  // namespace csgrt

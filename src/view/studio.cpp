@@ -171,7 +171,7 @@ Json Studio::model() const {
                            {"material_id", region.material_id},
                            {"los", region.los},
                            {"color", to_json(region.color)},
-                           {"state", name_of(region.state)},
+                           {"state", name_of(state_names, region.state)},
                            {"low", box.is_null() ? box : box["low"]},
                            {"high", box.is_null() ? box : box["high"]}});
     }
@@ -215,7 +215,7 @@ Studio::Dressed Studio::model_with(const std::vector<Look>& looks) {
     std::string key;
     for (const Look& look : looks) {
         key += look.path + '\n';
-        if (look.state) key += name_of(*look.state);
+        if (look.state) key += name_of(state_names, *look.state);
         if (look.color) key += bytes_of(&*look.color, 1);
         key += '\n';
     }

@@ -1,6 +1,8 @@
 // What a caller can ask for is described once (src/form/requests.hpp): the C++ headers, C's structs and the documents
 // say it with the same sentences, and the command that is written back sets the same members again.
 #include <algorithm>
+#include <cctype>
+#include <cmath>
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
@@ -39,7 +41,8 @@ void require_sentences(const std::string& header) {
     form::for_members(form::of<S>, [&](const auto& member) {
         INFO(header << ": " << member.key.member);
         CHECK(words.find(member.help) != words.npos);
-        CHECK(words.find(member.key.member) != words.npos);
+        const std::string_view name = member.key.json.substr(member.key.json.rfind('.') + 1);  // a member's member
+        CHECK(words.find(name == member.key.json ? member.key.member : name) != words.npos);
     });
 }
 
@@ -78,21 +81,151 @@ std::string c_members(const std::string& name) {
         return "const csgrt_camera* " + name + ";  ///< NULL: CSGRT_CAMERA";
     else if constexpr (std::is_same_v<Value, std::optional<PixelRectangle>>)
         return "const csgrt_pixel_rectangle* " + name + ";  ///< NULL: all of them";
+    else if constexpr (std::is_same_v<Value, Vec3>)
+        return "csgrt_vec3 " + name + ";";
+    else if constexpr (std::is_same_v<Value, Box>)
+        return "csgrt_box " + name + ";";
+    else if constexpr (std::is_same_v<Value, std::optional<Vec3>>)
+        return "const csgrt_vec3* " + name + ";  ///< NULL: not given";
+    else if constexpr (std::is_same_v<Value, std::optional<double>>)
+        return "double " + name + ";  ///< 0: not given";
     else
         return "csgrt_progress " + name + ";  ///< NULL: none\n    void* user;";
 }
 
+template <class S>
+std::string c_name() {
+    return "csgrt_" + std::string(form::of<S>.head.name);
+}
+
 /// C's struct as csgrt.h has it.
 template <class S>
-std::string c_struct() {
-    const std::string name = "csgrt_" + std::string(form::of<S>.head.name);
-    std::string text = "typedef struct " + name + " {\n    size_t size;\n";
-    form::for_members(form::of<S>, [&](const auto& member) {
-        using Value = std::remove_cvref_t<decltype(S{}.*member.at)>;
+std::string c_struct(bool is_sized = true) {
+    std::string text = "typedef struct " + c_name<S>() + " {\n" + (is_sized ? "    size_t size;\n" : "");
+    form::for_members(form::of<S>, [&]<class Member>(const Member& member) {
+        using Value = std::remove_cvref_t<decltype(form::member_of(member, std::declval<S&>()))>;
+        if constexpr (std::is_same_v<Value, Finish>) return;  // csgrt_model_finish() gives it
         if (*member.help) text += folded("    ///", "    ///", member.help);
         text += "    " + c_members<Value>(std::string(member.key.member)) + "\n";
     });
-    return text + "} " + name + ";\n";
+    return text + "} " + c_name<S>() + ";\n";
+}
+
+template <class Value>
+std::string c_value(const Value& value) {
+    if constexpr (std::is_same_v<Value, double>)
+        return std::isinf(value) ? "HUGE_VAL" : shortest(value);
+    else if constexpr (std::is_same_v<Value, std::string>)
+        return "\"" + value + "\"";
+    else if constexpr (std::is_arithmetic_v<Value> || std::is_enum_v<Value>)
+        return std::to_string(static_cast<long long>(value));
+    else if constexpr (std::is_same_v<Value, Vec3>)
+        return "{" + shortest(value.x) + ", " + shortest(value.y) + ", " + shortest(value.z) + "}";
+    else if constexpr (std::is_same_v<Value, Box>)
+        return "{" + c_value(value.low) + ", " + c_value(value.high) + "}";
+    else if constexpr (std::is_same_v<Value, std::optional<double>>)
+        return c_value(value.value_or(0));
+    else if constexpr (std::is_same_v<Value, Camera> || std::is_same_v<Value, std::optional<Vec3>> ||
+                       std::is_same_v<Value, std::optional<PixelRectangle>>)
+        return "NULL";
+    else if constexpr (std::is_same_v<Value, std::function<bool(double)>>)
+        return "NULL, NULL";
+    else
+        return "NULL, 0";
+}
+
+/// The macro with a struct's defaults.
+template <class S>
+std::string c_defaults() {
+    std::string name = c_name<S>();
+    std::string text = "#define ";
+    for (const char c : name) text += static_cast<char>(std::toupper(c));
+    text += " {sizeof(" + name + ")";
+    const S usual{};
+    form::for_members(form::of<S>, [&](const auto& member) {
+        const auto& value = form::member_of(member, usual);
+        if constexpr (!std::is_same_v<std::remove_cvref_t<decltype(value)>, Finish>) {
+            const std::string next = c_value(value);
+            const std::size_t line = text.size() - (text.rfind('\n') + 1);
+            text += line + next.size() > 114 ? ", \\\n    " : ", ";
+            text += next;
+        }
+    });
+    return text + "}\n";
+}
+
+/// The lines of an enumeration in csgrt.h.
+template <class Names>
+std::string enumerators(const std::string& prefix, const Names& names) {
+    std::string text;
+    for (const auto& [name, value] : names) {
+        text += "    CSGRT_" + prefix;
+        for (const char c : name) text += static_cast<char>(std::toupper(c));
+        text += " = " + std::to_string(static_cast<long long>(value)) + ",\n";
+    }
+    return text;
+}
+
+std::string field_enumerators() {
+    std::vector<std::pair<std::string, unsigned>> names;
+    form::for_members(form::of<Fields>, [&](const auto& member) {
+        names.emplace_back((member.option.is_off ? "without_" : "") + std::string(member.key.member),
+                           1u << names.size());
+    });
+    return enumerators("FIELD_", names);
+}
+
+/// All of csgrt.h that is made.
+std::vector<std::string> made_of_header() {
+    return {enumerators("PRECISION_", every_precision),
+            enumerators("TOLERANCE_", every_tolerance),
+            enumerators("STATE_", state_names),
+            enumerators("FASTGEN_", fastgen_names),
+            enumerators("CHANNEL_", channel_names),
+            enumerators("", operator_names),
+            field_enumerators(),
+            c_struct<Plane>(false),
+            c_struct<Settings>(),
+            c_struct<DeviceInfo>(),
+            c_struct<LoadOptions>(),
+            c_struct<Camera>(),
+            c_struct<RegionInfo>(),
+            c_struct<SolidInfo>(),
+            c_struct<Ray>(false),
+            c_struct<RayRange>(false),
+            c_struct<RayGrid>(false),
+            c_struct<Slice>(false),
+            c_struct<Statistics>(),
+            c_struct<PixelRectangle>(false),
+            c_struct<View>(),
+            c_defaults<Settings>(),
+            c_defaults<DeviceInfo>(),
+            c_defaults<LoadOptions>(),
+            c_defaults<Camera>(),
+            c_defaults<RegionInfo>(),
+            c_defaults<SolidInfo>(),
+            c_defaults<Statistics>(),
+            c_defaults<View>()};
+}
+
+/// Replaces what begins as `made` does: up to its last line, or of a macro to the end of its lines.
+void replace_made(std::string& header, const std::string& made) {
+    INFO(made);
+    const bool is_macro = made.starts_with('#'), is_struct = made.starts_with("typedef");
+    const std::size_t key = is_macro ? made.find('{') : is_struct ? made.find('\n') : made.find(" =") + 1;
+    const std::size_t begin = header.find(made.substr(0, key));
+    REQUIRE(begin != header.npos);
+    std::size_t end = begin;
+    if (is_struct) {
+        end = header.find(made.substr(made.rfind('}')), begin);
+    } else if (is_macro) {
+        while (header[header.find('\n', end) - 1] == '\\') end = header.find('\n', end) + 1;
+    } else {
+        end = header.find('}', begin) - 1;
+    }
+    REQUIRE(end != header.npos);
+    end = is_struct || is_macro ? header.find('\n', end) + 1 : end + 1;
+    header.replace(begin, end - begin, made);
 }
 
 template <class Value>
@@ -114,30 +247,27 @@ template <class S>
 std::string list(const std::string& title) {
     const S usual{};
     std::string text = "## " + title + "\n\n";
-    form::for_members(form::of<S>, [&](const auto& member) {
+    form::for_members(form::of<S>, [&]<class Member>(const Member& member) {
         std::string line = "`" + std::string(member.key.member) + "`";
         if (*member.option.name) line += std::string(", `") + member.option.name + "`";
-        if (const std::string value = default_text(usual.*member.at); !value.empty()) line += " (" + value + ")";
+        if constexpr (Member::given != form::Given::required)
+            if (const std::string value = default_text(form::member_of(member, usual)); !value.empty())
+                line += " (" + value + ")";
         text += folded("-", " ", line + (*member.help ? std::string(": ") + member.help : std::string()));
     });
     return text + "\n";
 }
 
 std::string settings_page() {
-    return "# Settings and views\n\n"
-           "The members of the structs that a caller fills, in C++, C and Python, and the options of the command that "
-           "set\nthem, with their defaults. This page is made of src/form/requests.hpp (`csgrt_tests \"[.made]\"`).\n"
-           "[command-line.md](command-line.md) has the options that set several members (`--size`, `--tolerance`) or "
-           "looks.\n\n" +
+    return "# Settings, views and answers\n\n"
+           "The members of the structs that a caller fills or gets, in C++, C and Python, and the options of the "
+           "command that set\nthem, with their defaults. This page is made of src/form/requests.hpp and "
+           "src/form/answers.hpp\n(`csgrt_tests \"[.made]\"`). [command-line.md](command-line.md) has the options "
+           "that set several members\n(`--size`, `--tolerance`) or looks.\n\n" +
            list<Settings>("csgrt::Settings") + list<LoadOptions>("csgrt::LoadOptions") + list<View>("csgrt::View") +
-           list<Camera>("csgrt::Camera");
-}
-
-void replace_struct(std::string& header, const std::string& made) {
-    const std::string head = made.substr(0, made.find('\n') + 1), tail = made.substr(made.rfind('}'));
-    const std::size_t begin = header.find(head), end = header.find(tail, begin);
-    REQUIRE(end != header.npos);
-    header.replace(begin, end + tail.size() - begin, made);
+           list<Camera>("csgrt::Camera") + list<Fields>("csgrt::Fields") + list<RayRange>("csgrt::RayRange") +
+           list<Slice>("csgrt::Slice") + list<RegionInfo>("csgrt::RegionInfo") + list<SolidInfo>("csgrt::SolidInfo") +
+           list<DeviceInfo>("csgrt::DeviceInfo") + list<Statistics>("csgrt::Statistics");
 }
 
 /// As a shell does, without its signs but quotes.
@@ -240,21 +370,36 @@ TEST_CASE("each sentence stands in the C++ header") {
     require_sentences<Settings>("include/csgrt/settings.hpp");
     require_sentences<LoadOptions>("include/csgrt/scene_io.hpp");
     require_sentences<View>("include/csgrt/view.hpp");
+    require_sentences<PixelRectangle>("include/csgrt/view.hpp");
     require_sentences<Camera>("include/csgrt/camera.hpp");
+    require_sentences<Plane>("include/csgrt/solids.hpp");
+    require_sentences<Ray>("include/csgrt/rays.hpp");
+    require_sentences<RayRange>("include/csgrt/rays.hpp");
+    require_sentences<RayGrid>("include/csgrt/rays.hpp");
+    require_sentences<Slice>("include/csgrt/rays.hpp");
+    require_sentences<Fields>("include/csgrt/partitions.hpp");
+    require_sentences<RegionInfo>("include/csgrt/model.hpp");
+    require_sentences<SolidInfo>("include/csgrt/model.hpp");
+    require_sentences<DeviceInfo>("include/csgrt/device.hpp");
+    require_sentences<Statistics>("include/csgrt/statistics.hpp");
 }
 
 TEST_CASE("C's structs and docs/settings.md are made of the descriptions") {
     const std::string header = text_of("include/csgrt/csgrt.h");
-    CHECK(header.find(c_struct<Settings>()) != header.npos);
-    CHECK(header.find(c_struct<LoadOptions>()) != header.npos);
-    CHECK(header.find(c_struct<View>()) != header.npos);
+    for (const std::string& made : made_of_header()) {
+        INFO("made by csgrt_tests \"[.made]\":\n" << made);
+        CHECK(header.find(made) != header.npos);
+    }
+    for (const auto& [name, status] : status_names) {
+        const std::string line = enumerators("ERROR_", std::vector{std::pair(name, status)});
+        CHECK(header.find(line.substr(4, line.size() - 6)) != header.npos);
+    }
     CHECK(text_of("docs/settings.md") == settings_page());
 }
 
 TEST_CASE("writes C's structs and docs/settings.md", "[.made]") {
     std::string header = text_of("include/csgrt/csgrt.h");
-    for (const std::string& made : {c_struct<Settings>(), c_struct<LoadOptions>(), c_struct<View>()})
-        replace_struct(header, made);
+    for (const std::string& made : made_of_header()) replace_made(header, made);
     std::ofstream(path_of("include/csgrt/csgrt.h")) << header;
     std::ofstream(path_of("docs/settings.md")) << settings_page();
 }

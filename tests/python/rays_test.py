@@ -175,7 +175,7 @@ def test_regions_are_those_of_info(operators, scenes, command):
     listed = json.loads(command("info", "--json", scenes / "operators.json", capture_output=True).stdout)
     assert len(operators.regions) == len(listed["regions"])
     for region, row in zip(operators.regions, listed["regions"]):
-        assert (region.id, region.path, region.material) == (row["index"], row["path"], row["material_id"])
+        assert (region.id, region.path, region.material_id) == (row["index"], row["path"], row["material_id"])
         assert region.bounds == (tuple(row["bounds"]["low"]), tuple(row["bounds"]["high"]))
         assert operators.regions[region.path] is operators.regions[region.path[1:]] is region
     assert "/operators/xor" in repr(operators.regions)

@@ -30,7 +30,7 @@ struct RenderArguments : SceneArguments {
     std::vector<std::string> outputs;  ///< "-" is standard output
     std::string format;                ///< of "-": "exr" or "png"; empty: not given
     View picture;                      ///< of its camera what `given` has; the rest is the scene's
-    std::set<std::string> given;       ///< the camera's options
+    std::set<std::string> given;       ///< members of the camera
     std::string view;                  ///< file of a saved view; empty: none
     std::vector<Look> looks;
     std::string stats;  ///< file, "-" or empty

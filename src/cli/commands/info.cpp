@@ -11,6 +11,7 @@
 #include "cli/interrupt.hpp"
 #include "cli/output.hpp"
 #include "cli/progress.hpp"
+#include "form/answers.hpp"
 #include "cli/text/partitions.hpp"
 #include "cli/text/scene.hpp"
 #include "cli/text/statistics.hpp"
@@ -114,11 +115,25 @@ std::string json_box(const Box& box) {
 }
 
 std::string json_region(const RegionInfo& region, std::size_t index) {
-    std::string text = "{\"index\": " + std::to_string(index) + ", \"path\": " + json_text(region.path);
-    const std::pair<const char*, int> numbers[] = {
-        {"region_id", region.region_id}, {"air", region.air}, {"material_id", region.material_id}, {"los", region.los}};
-    for (const auto& [name, number] : numbers) text += std::string(", \"") + name + "\": " + std::to_string(number);
-    return text + ", \"color\": " + json_vector(region.color) + ", \"bounds\": " + json_box(region.bounds) + "}";
+    std::string text = "{\"index\": " + std::to_string(index);
+    form::for_members(form::of<RegionInfo>, [&](const auto& member) {
+        const auto& value = region.*member.at;
+        using Value = std::remove_cvref_t<decltype(value)>;
+        if constexpr (!std::is_same_v<Value, Finish>) {
+            text += ", " + json_text(member.key.json) + ": ";
+            if constexpr (std::is_same_v<Value, std::string>)
+                text += json_text(value);
+            else if constexpr (std::is_same_v<Value, int>)
+                text += std::to_string(value);
+            else if constexpr (std::is_same_v<Value, Vec3>)
+                text += json_vector(value);
+            else if constexpr (std::is_same_v<Value, Box>)
+                text += json_box(value);
+            else
+                text += json_text(name_of(*member.kind.names, value));
+        }
+    });
+    return text + "}";
 }
 
 std::string json_warning(const Warning& warning) {

@@ -16,6 +16,7 @@
 #include "cli/progress.hpp"
 #include "cli/text/scene.hpp"
 #include "cli/text/statistics.hpp"
+#include "form/camera.hpp"
 #include "form/written_back.hpp"
 
 namespace csgrt::cli {
@@ -29,21 +30,28 @@ bool names_format(const std::string& path) { return extension_of(path) == ".exr"
 bool has_no_format(const std::string& path) { return path == "-" || (!names_format(path) && target_of(path).direct); }
 #endif
 
+auto is_given(const RenderArguments& arguments) {
+    return [&arguments](std::string_view member) { return arguments.given.contains(std::string(member)); };
+}
+
+/// The option that sets a camera's member.
+std::string option_of(std::string_view member) {
+    std::string option;
+    form::for_members(form::of<Camera>, [&](const auto& described) {
+        if (described.key.member == member) option = described.option.name;
+    });
+    return option;
+}
+
 /// Refuses options that set one thing twice.
 void check_view(const RenderArguments& arguments) {
-    const auto is_given = [&](const char* option) { return arguments.given.contains(option); };
-    const auto exclude = [&](const char* option, std::initializer_list<const char*> others, const char* reason) {
-        for (const char* other : others)
-            if (is_given(option) && is_given(other))
-                refuse(option, std::string("cannot be combined with ") + other, reason);
-    };
-    for (const std::string& option : arguments.given)
-        if (option != "--perspective" && !arguments.view.empty())
-            refuse(option.c_str(), "cannot be combined with --view", "the saved view has the eye and what it sees");
-    exclude("--eye", {"--azimuth", "--elevation"}, "the eye and what it looks at give the direction");
-    exclude("--look-at", {"--center"}, "they are one point, the middle of the picture");
-    if (is_given("--eye") && is_given("--view-size") && arguments.picture.camera.perspective > 0)
-        refuse("--view-size", "cannot be combined with --eye and --perspective", "these two give the size of the view");
+    for (const std::string& member : arguments.given)
+        if (member != "perspective" && !arguments.view.empty())
+            refuse(option_of(member).c_str(), "cannot be combined with --view",
+                   "the saved view has the eye and what it sees");
+    if (const CameraConflict* conflict = conflict_of(arguments.picture.camera, is_given(arguments)))
+        refuse(option_of(conflict->member).c_str(), "cannot be combined with " + option_of(conflict->other),
+               conflict->reason);
 }
 
 /// Finds all mistakes that can be found before the work begins.
@@ -73,24 +81,6 @@ void check(const RenderArguments& arguments) {
     if (!arguments.stats.empty()) outputs.push_back({"--stats", arguments.stats});
     check_view(arguments);
     check_outputs(outputs, {{"SCENE", arguments.scene}});
-}
-
-Camera camera_of(const Scene& scene, const RenderArguments& arguments) {
-    const auto is_given = [&](const char* option) { return arguments.given.contains(option); };
-    Camera camera = arguments.view.empty() ? scene.camera : load_view(arguments.view);
-    if (is_given("--azimuth") || is_given("--elevation")) camera.eye.reset();  // and upright
-    if (!camera.eye || is_given("--eye")) {
-        if (is_given("--azimuth") || is_given("--elevation") || is_given("--eye")) camera.up.reset();
-    }
-    if (is_given("--center") || is_given("--look-at")) {
-        camera.center.reset();
-        camera.look_at.reset();
-    }
-    form::for_members(form::of<Camera>, [&](const auto& member) {
-        if (is_given(member.option.name)) camera.*member.at = arguments.picture.camera.*member.at;
-    });
-    if (camera.eye && camera.perspective > 0 && !is_given("--view-size")) camera.view_size.reset();  // the scene's
-    return camera;
 }
 
 /// Refuses a look of no region: the scene itself may have such looks, since regions come and go there.
@@ -159,7 +149,8 @@ Status run(const RenderArguments& arguments) {
     Scene scene = load_with_progress(arguments.scene, arguments.load);
     double load = milliseconds_since(begin);
     View view = arguments.picture;
-    view.camera = camera_of(scene, arguments);
+    const Camera seen = arguments.view.empty() ? scene.camera : load_view(arguments.view);
+    view.camera = merged(seen, arguments.picture.camera, is_given(arguments));
     [[maybe_unused]] const View drawn = view;
     if (only_colors(arguments)) {
         view.every_partition = false;

@@ -5,31 +5,12 @@
 #include <cstdio>
 #include <utility>
 
+#include "form/answers.hpp"
 #include "partitions.hpp"
 
 namespace csgrt::cli {
 
 namespace {
-
-using Times = decltype(Statistics::ms);
-
-/// The times in the order in which they are printed.
-constexpr std::pair<const char*, double Times::*> times[] = {
-    {"load", &Times::load},
-    {"compile", &Times::compile},
-    {"build", &Times::build},
-    {"count_segments", &Times::count_segments},
-    {"scan", &Times::scan},
-    {"store_segments", &Times::store_segments},
-    {"weave", &Times::weave},
-    {"evaluate", &Times::evaluate},
-    {"shade", &Times::shade},
-    {"cull_tiles", &Times::cull_tiles},
-    {"first_hits", &Times::first_hits},
-    {"kernels", &Times::kernels},
-    {"frame", &Times::frame},
-    {"write", &Times::write},
-};
 
 std::string milliseconds(double value) {
     char text[64];
@@ -63,39 +44,47 @@ std::string json_text(std::string_view text) {
 }
 
 std::string to_json(const Statistics& s) {
-    auto count = [](const char* name, std::uint64_t value) {
-        return std::string("  \"") + name + "\": " + std::to_string(value) + ",\n";
-    };
-    auto text = [](const char* name, const std::string& value) {
-        return std::string("  \"") + name + "\": " + json_text(value) + ",\n";
-    };
-    std::string out = "{\n" + text("device", s.device) + text("awaited_device", s.awaited_device) +
-                      text("precision", s.precision) + text("method", s.method) +
-                      "  \"tolerance\": " + shortest(s.tolerance) + ",\n";
-    out += "  \"size\": [" + std::to_string(s.width) + ", " + std::to_string(s.height) + "],\n";
-    out += count("rays", s.rays) + count("ends", s.ends) + count("segments", s.segments);
-    out += "  \"partitions\": {\"used\": " + std::to_string(s.partitions_used) +
-           ", \"allocated\": " + std::to_string(s.partitions_allocated) + "},\n";
-    out += count("overlaps", s.overlaps) + count("device_bytes", s.device_bytes) +
-           count("segment_bytes", s.segment_bytes) + count("partition_bytes", s.partition_bytes) +
-           count("batches", s.batches);
-    out += "  \"ms\": {";
-    for (const auto& [name, member] : times)
-        out += std::string(member == times[0].second ? "" : ", ") + "\"" + name + "\": " + milliseconds(s.ms.*member);
-    return out + "}\n}\n";
+    std::string out = "{", group;
+    form::for_members(form::of<Statistics>, [&](const auto& member) {
+        const auto& value = form::member_of(member, s);
+        const std::string_view key = member.key.json;
+        if (key == "height") return;  // beside the width
+        const std::size_t point = std::min(key.find('.'), key.size());
+        const std::string of(key, 0, point == key.size() ? 0 : point);
+        if (!group.empty() && of != group) out += "}";
+        const bool goes_on = !of.empty() && of == group;
+        out += out == "{" ? "\n  " : goes_on ? ", " : ",\n  ";
+        if (!of.empty() && !goes_on) out += json_text(of) + ": {";
+        group = of;
+        const std::string_view name = of.empty() ? key : key.substr(point + 1);
+        out += (key == "width" ? json_text("size") : json_text(name)) + ": ";
+        using Value = std::remove_cvref_t<decltype(value)>;
+        if constexpr (std::is_same_v<Value, std::string>)
+            out += json_text(value);
+        else if constexpr (std::is_same_v<Value, double>)
+            out += of == "ms" ? milliseconds(value) : shortest(value);
+        else if (key == "width")
+            out += "[" + std::to_string(s.width) + ", " + std::to_string(s.height) + "]";
+        else
+            out += std::to_string(value);
+    });
+    return out + (group.empty() ? "\n}\n" : "}\n}\n");
 }
 
 Statistics median_of(const std::vector<Statistics>& frames) {
     Statistics result = frames.back();
-    auto warm = frames.begin() + (frames.size() > 1 ? 1 : 0);
+    const auto warm = frames.begin() + (frames.size() > 1 ? 1 : 0);
     std::vector<double> values;
-    for (const auto& time : times) {
-        values.clear();
-        for (auto frame = warm; frame != frames.end(); ++frame) values.push_back(frame->ms.*time.second);
-        std::sort(values.begin(), values.end());
-        std::size_t half = values.size() / 2;
-        result.ms.*time.second = values.size() % 2 ? values[half] : (values[half - 1] + values[half]) / 2;
-    }
+    form::for_members(form::of<Statistics>, [&](const auto& member) {
+        auto& median = form::member_of(member, result);
+        if constexpr (std::is_same_v<std::remove_cvref_t<decltype(median)>, double>) {
+            values.clear();
+            for (auto frame = warm; frame != frames.end(); ++frame) values.push_back(form::member_of(member, *frame));
+            std::sort(values.begin(), values.end());
+            const std::size_t half = values.size() / 2;
+            median = values.size() % 2 ? values[half] : (values[half - 1] + values[half]) / 2;
+        }
+    });
     return result;
 }
 

@@ -4,6 +4,7 @@
 
 #include <optional>
 
+#include "form/names.hpp"
 #include "form/requests.hpp"
 
 namespace csgrt {
@@ -18,7 +19,7 @@ namespace form {
 
 inline constexpr Words<10> units{{"nm", "um", "mm", "cm", "m", "km", "in", "ft", "yd", "mi"}};
 
-inline constexpr Words<3> states{{"shown", "ghost", "hidden"}};
+inline constexpr Words states = words_of(state_names);
 
 constexpr Bounds beam = {0,    180, true,
                          true, "",  "must be an angle from 0 to 180 degrees, between the beam's axis and its edge"};
@@ -92,7 +93,7 @@ inline constexpr auto of<Combination> = Form{
     optional("region", &Combination::region, flag, "One piece of material."),
     optional("id", &Combination::region_id, integer),
     optional("air", &Combination::air, integer, "0: solid. Others are kinds of air, left out of pictures."),
-    optional("fastgen", &Combination::fastgen, Words<2>{{"plate", "volume"}, 1},
+    optional("fastgen", &Combination::fastgen, words_of<1>(fastgen_names),
              "A region of FASTGEN: it yields to regions that are none, and a volume to a plate."),
     optional("material_id", &Combination::material_id, integer),
     optional("los", &Combination::los, integer),
@@ -182,7 +183,7 @@ inline constexpr auto postfix = Form{
 };
 inline constexpr auto postfix_operator = Form{
     plain("postfix_operator"),
-    required("operator", nothing, Words<5>{{"union", "intersection", "difference", "xor", "not"}}),
+    required("operator", nothing, words_of<1>(operator_names)),
     required("operands", nothing, Whole{1, integer.high}),
 };
 

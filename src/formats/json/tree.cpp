@@ -18,7 +18,7 @@ namespace {
 std::string_view kind_of_node(const JsonMembers& members) {
     for (const JsonMember& member : members) {
         if (member.name == "object" || member.name == "postfix") return member.name;
-        for (const auto& [op, name] : operator_names) {
+        for (const auto& [name, op] : operator_names) {
             if (op != Operator::leaf && member.name == name) return name;
         }
     }
@@ -27,8 +27,8 @@ std::string_view kind_of_node(const JsonMembers& members) {
 
 Operator operator_called(std::string_view called) {
     const auto found = std::find_if(std::begin(operator_names), std::end(operator_names),
-                                    [&](const auto& it) { return it.second == called; });
-    return found == std::end(operator_names) ? Operator::leaf : found->first;
+                                    [&](const auto& it) { return it.first == called; });
+    return found == std::end(operator_names) ? Operator::leaf : found->second;
 }
 
 std::string needs(Operator op) {
@@ -99,7 +99,7 @@ private:
         const std::string_view kind = kind_of_node(members);
         if (kind.empty()) {
             std::vector<std::string_view> known = {"object"};
-            for (const auto& [op, name] : operator_names) {
+            for (const auto& [name, op] : operator_names) {
                 if (op != Operator::leaf) known.push_back(name);
             }
             std::string suggestion;

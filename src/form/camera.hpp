@@ -1,0 +1,51 @@
+// A camera that is given in part: what is given replaces what it contradicts in the scene's.
+#pragma once
+
+#include <initializer_list>
+#include <string_view>
+
+#include "form/requests.hpp"
+
+namespace csgrt {
+
+/// Members of a camera that exclude each other, with the reason. `in_perspective`: only there.
+struct CameraConflict {
+    std::string_view member, other;
+    const char* reason;
+    bool in_perspective = false;
+};
+inline constexpr CameraConflict camera_conflicts[] = {
+    {"eye", "azimuth", "the eye and what it looks at give the direction"},
+    {"eye", "elevation", "the eye and what it looks at give the direction"},
+    {"look_at", "center", "they are one point, the middle of the picture"},
+    {"view_size", "eye", "the eye and the perspective give the size of the view", true},
+};
+
+/// The first conflict among the members that `is_given(name)` tells, or null.
+template <class IsGiven>
+const CameraConflict* conflict_of(const Camera& given, const IsGiven& is_given) {
+    for (const CameraConflict& conflict : camera_conflicts)
+        if (is_given(conflict.member) && is_given(conflict.other) &&
+            (!conflict.in_perspective || given.perspective > 0))
+            return &conflict;
+    return nullptr;
+}
+
+/// `camera` with the members of `given` that is_given(name) tells, without what they contradict.
+template <class IsGiven>
+Camera merged(Camera camera, const Camera& given, const IsGiven& is_given) {
+    const bool angles = is_given("azimuth") || is_given("elevation");
+    if (angles) camera.eye.reset();
+    if (angles || is_given("eye")) camera.up.reset();  // upright
+    if (is_given("center") || is_given("look_at")) {
+        camera.center.reset();
+        camera.look_at.reset();
+    }
+    form::for_members(form::of<Camera>, [&](const auto& member) {
+        if (is_given(member.key.member)) camera.*member.at = given.*member.at;
+    });
+    if (camera.eye && camera.perspective > 0 && !is_given("view_size")) camera.view_size.reset();  // the scene's
+    return camera;
+}
+
+}  // namespace csgrt
