@@ -25,6 +25,9 @@ stub = Path(sys.argv[2]).read_text()
 for name, value in vars(_core).items():
     if isinstance(value, str) and value.startswith("typing."):
         stub = re.sub(rf"^{name}: str = .*$", f"{name} = {value}", stub, flags=re.MULTILINE)
+    if isinstance(value, dict):
+        kind = type(next(iter(value.values()))).__name__
+        stub = re.sub(rf"^{name}: dict = .*$", f"{name}: dict[str, {kind}]", stub, flags=re.MULTILINE)
 parts = ["import typing\nfrom typing import TypedDict\n" + stub.strip(), keywords("SettingsKeywords", stub, "Settings"),
          keywords("ViewKeywords", stub, "Camera", "View")]
 Path(sys.argv[3]).write_text("\n\n\n".join(parts) + "\n")

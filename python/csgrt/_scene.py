@@ -253,9 +253,8 @@ class Scene(_core.Scene):
     def render(self, width: int = 1024, height: int = 1024, **view: Unpack[_core.ViewKeywords]) -> Image:
         """A picture: .color, .rgba, .depth, .normal, .region_ids, and by name image["ghost"].
 
-        view: azimuth, elevation, perspective, center, view_size, eye, look_at, up (as of csgrt.Camera; default: those
-        of camera=, or of the scene's camera); clip: up to six planes (normal, distance); samples: rays a pixel;
-        transparent; every_partition: adds the channels depth, partitions, overlap.
+        view: attributes of csgrt.View and of csgrt.Camera; those of the camera that are not given are those of camera=,
+        or of the scene's camera. every_partition=True adds the channels depth, partitions, overlap.
         Raises csgrt.Error (usage, out_of_memory, device_fault), TypeError or ValueError (members and their values).
         """
         made = self._view(width, height, {"every_partition": False, **view})

@@ -364,6 +364,27 @@ void require_same_members(const S& a, const S& b) {
     });
 }
 
+/// The bytes of a small picture, or why there is none.
+std::string drawn(const Settings& settings, View view, const std::vector<Look>& looks) {
+    static const Scene operators = load_scene(path_of("scenes/operators.json"));
+    Scene scene = operators;
+    scene.looks = looks;
+    view.width = 1 + view.width % 24;
+    view.height = 1 + view.height % 24;
+    view.samples = 1 + view.samples % 3;
+    try {
+        const Image image = Renderer(std::move(scene), {}, settings).render(view);
+        std::string bytes;
+        for (std::size_t i = 0; i < image.channels.size(); ++i) {
+            const std::span<const float> channel = image.channels[i];
+            bytes.append(reinterpret_cast<const char*>(channel.data()), channel.size_bytes());
+        }
+        return bytes;
+    } catch (const Error& error) {
+        return error.what();
+    }
+}
+
 }  // namespace
 
 TEST_CASE("each sentence stands in the C++ header") {
@@ -452,5 +473,6 @@ TEST_CASE("the command that is written back sets the same members") {
         for (std::size_t k = 0; k < looks.size(); ++k)
             REQUIRE((read.looks[k].path == looks[k].path && read.looks[k].state == looks[k].state &&
                      read.looks[k].color == looks[k].color));
+        if (i % 20 == 0) REQUIRE(drawn(read.settings, read.picture, read.looks) == drawn(settings, view, looks));
     }
 }
