@@ -1,6 +1,6 @@
-// Kernel 0: finds the tiles of a picture that can see anything; the other tiles get no rays. For each tile it also
-// lists the nodes of the hierarchy that the tile's 64 rays may meet, so that each ray tests these alone. A GPU has no
-// lists for every partition.
+// Kernel 0: finds the tiles of a picture that can see anything. The other tiles get no rays. For each tile the kernel
+// also lists the nodes of the hierarchy that the tile's 64 rays may meet, so that each ray tests the listed nodes
+// alone. A GPU has no lists for every partition.
 #include "traversal/beam.h"
 #include "traversal/bvh_cursor.h"
 
@@ -11,9 +11,9 @@ static void clear_report(__global BatchReport* report, u32 tiles, u32 id) {
     if (id < tiles) ((__global unsigned char*)(report + 1))[id] = 0;
 }
 
-// Lists nodes that hold all that the beam meets, from the root down, level by level: as long as the list has room,
-// each node is replaced by those of its two children that the beam meets. `entry` is a distance along the
-// beam's middle ray yet, as in slab_ray.
+// Lists nodes that hold everything that the beam meets. The list begins with the root and goes down level by level: as
+// long as it has room, each node is replaced by those of its two children that the beam meets. `entry` is at first a
+// distance along the beam's middle ray, as in slab_ray.
 static u32 list_nodes(beam b, __global const BvhNode* nodes, TileNode* list) {
     u32 count, k, split = 1;
     list[0] = entry_of(b, nodes, 0);
@@ -65,8 +65,8 @@ static void store_sorted(beam b, TileNode* list, u32 count, int by_distance, __g
     stored[count].entry = BOX_MISSED;
 }
 
-// Counts the listed nodes and all below them, up to what a byte holds. The time of a tile's rays is about proportional.
-// 0: all of them are before the starting node.
+// Counts the listed nodes and all nodes below them, up to what a byte holds. The time of a tile's rays is about
+// proportional to the count. 0: all nodes are before the starting node.
 static u32 count_nodes(__global const BvhNode* nodes, const TileNode* list, u32 count, u32 starting_node) {
     u32 i, sum = 0, starts = 0;
     for (i = 0; i < count; ++i) {
@@ -87,8 +87,8 @@ static u32 meets_anything(beam b, __global const BvhNode* nodes, u32 count) {
     return 0;
 }
 
-// One work-item a tile. It stores the tile's cost, 0 if none of its rays meets a solid that can be seen, and, unless
-// `lists` is 0, the tile's list of at most LISTED_NODES nodes.
+// Runs one work-item a tile. Stores the tile's cost, 0 if none of its rays meets a solid that can be seen. Stores the
+// tile's list of at most LISTED_NODES nodes, too, unless `lists` is 0.
 __kernel void cull_tiles(__global const Frame* frame, __global const BvhNode* nodes, __global unsigned char* costs,
                          __global TileNode* lists, __global BatchReport* report) {
     const u32 id = (u32)get_global_id(0), tiles = frame->ray_count / (TILE * TILE);

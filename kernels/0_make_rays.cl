@@ -1,4 +1,5 @@
-// The records of a grid's rays, which the host need not send: the camera of the list's frame has them.
+// Kernel 0 of a grid: makes the records of the grid's rays, so that the host need not send them. The frame of the list
+// has the grid's camera.
 #include "traversal/camera.h"
 
 __kernel void make_rays(__global const Frame* frame, wide t_near, wide t_far, __global RayRecord* rays) {

@@ -1,12 +1,12 @@
-// Kernel 1: counts each ray's segments. Then the host allocates exactly the memory that they need, or the next
+// Kernel 1: counts each ray's segments. Then the host allocates exactly the memory that the segments need, or the next
 // kernels see whether the buffers at hand suffice (shared/capacity.h). First each ray walks the hierarchy, in float,
 // and lists its candidates: the solids that it may meet. Then a work-item intersects each candidate, so that no ray
 // waits for its many solids one after the other.
 //
 //   find candidates -> (scan) -> find candidates, listing them -> count segments -> sum segments -> (scan)
 //
-// A candidate whose ray may run in a face of its solid is counted once more before the sum (2_rays_in_faces.cl).
-// On processors, packets of eight rays list the candidates of a picture's tiles (1_packet_candidates.cl).
+// A candidate whose ray may run in a face of its solid is counted once more before the sum (2_rays_in_faces.cl). On
+// processors, packets of eight rays list the candidates of a picture's tiles (1_packet_candidates.cl).
 #include "traversal/beam.h"
 #include "traversal/camera.h"
 #include "geometry/collect.h"
@@ -14,8 +14,8 @@
 #include "shared/scene_args.h"
 #include "traversal/candidates.h"
 
-// Runs twice: it counts each ray's candidates if `candidates` is 0, and then lists them from the ray's place on.
-// `lists`: kernel 0's, or 0 if the rays do not come in tiles.
+// Runs twice: first it counts each ray's candidates (`candidates` is 0), then it lists them from the ray's offset in
+// `places` on. `lists`: kernel 0's lists, or 0 if the rays do not come in tiles.
 __kernel void find_candidates(__global const Frame* frame, __global const BvhNode* nodes,
                               __global const TileNode* lists, __global const RayRecord* rays,
                               __global const u32* listed, __global CandidateCount* places,
@@ -58,8 +58,8 @@ static void intersect_candidate(__global const Frame* frame, Geometry g, __globa
     candidate->count = near ? count | IN_SOME_FACE : count;
 }
 
-// If a candidate has one segment, it is kept in `found`, so that kernel 2 need not find it again. Candidates of more
-// segments are too rare to be worth the memory.
+// Counts a candidate's segments. The only segment of a candidate is kept in `found`, so that kernel 2 need not find it
+// again. Candidates of more segments are too rare to be worth the memory.
 __kernel void count_segments(__global const Frame* frame, GEOMETRY_ARGS, __global const RayRecord* rays,
                              __global const u32* listed, __global const CandidateCount* places,
                              __global Candidate* candidates, __global End* found) {
@@ -68,8 +68,9 @@ __kernel void count_segments(__global const Frame* frame, GEOMETRY_ARGS, __globa
         intersect_candidate(frame, GEOMETRY, rays, listed, candidates + id, found + 2 * (size_t)id);
 }
 
-// Adds up each ray's counts, and gives each candidate its place among the ray's segments. `deep_words`: of the bit
-// arrays of a deep ray, which needs none: DEEP_WORDS if the sum is to tell that there is one, else 0.
+// Adds up each ray's counts, and gives each candidate its offset among the ray's segments. `deep_words`: the words of
+// bit arrays that a deep ray counts, though it needs none: DEEP_WORDS if the sum is to show that there is a deep ray,
+// else 0.
 __kernel void sum_segments(__global const Frame* frame, __global const CandidateCount* places,
                            __global Candidate* candidates, u32 deep_words, __global RayCount* counts,
                            __global BatchReport* report) {

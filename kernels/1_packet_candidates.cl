@@ -1,7 +1,7 @@
 // Kernel 1's first step on processors, for a picture's tiles and for lists: packets of eight rays list their
-// candidates. Solids that packets know are intersected here, too; count_segments (1_count_segments.cl) is left with
-// what one ray alone can answer. A list's packet is eight rays in a row; those that go different ways cost little more
-// than alone.
+// candidates. Solids that packets know are intersected here, too. count_segments (1_count_segments.cl) does the rest:
+// the candidates that only one ray alone can answer. A list's packet is eight rays in a row. Rays that go different
+// ways cost little more in a packet than alone.
 //
 //   count packet candidates -> (scan) -> list packet candidates -> count segments -> ...
 #include "shared/capacity.h"
@@ -9,7 +9,7 @@
 #include "geometry/collect.h"
 #include "packet/listed.h"
 
-// The place of a packet's ray k among the batch's rays; `id`: of its first work-item's.
+// The index of a packet's ray k among the batch's rays. `id`: the packet's first work-item.
 static u32 place_in_packet(__global const Frame* f, u32 id, u32 k) {
     return f->work == WORK_RAYS ? id + k : first_of_packet(id) + ray_of_packet(k);
 }
@@ -28,7 +28,7 @@ static ray_packet packet_of(__global const Frame* f, __global const RayRecord* r
     return p;
 }
 
-// A packet on its way through the nodes of its tile's list, or through all.
+// A packet on its way through the nodes of its tile's list, or through all nodes.
 typedef struct {
     packet_slab_ray slabs;
     float8 range_end;
@@ -51,7 +51,7 @@ static packet_walk start_walk(__global const Frame* f, __global const BvhNode* n
     return w;
 }
 
-// The next leaf that any ray hits, as BvhNode has it, and the mask of those that do; 0: there is none.
+// The next leaf that any ray hits, as BvhNode has it; 0: there is none. *hit_mask: the rays that hit the leaf.
 static u32 next_packet_leaf(packet_walk* w, u32* hit_mask) {
     u32 leaf = 0;
     if (w->active_mask && !w->next) {
@@ -95,13 +95,13 @@ __kernel void count_packet_candidates(__global const Frame* frame, __global cons
 typedef struct {
     packet_ray3 rays;
     double8 t_min;
-    u32 ray[PACKET];   // a ray's place
+    u32 ray[PACKET];   // a ray's index in the batch
     u32 next[PACKET];  // its next candidate
     __global Candidate* candidates;
     __global End* found;
 } packet_list;
 
-// A solid becomes a candidate of the active rays.
+// Makes a solid a candidate of the active rays.
 static void list_solid(packet_list* list, Geometry g, u32 index, u32 active_mask) {
     const SolidRecord solid = g.solids[index];
     real in[PACKET], out[PACKET];

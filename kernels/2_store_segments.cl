@@ -1,10 +1,11 @@
-// Kernel 2: stores the two ends of each segment in the ray's part of `ends`. A work-item is a candidate, as in kernel
-// 1: it copies a candidate's only segment, which kernel 1 kept, and intersects the solid again if there are several.
+// Kernel 2: stores the two boundaries of each segment in the ray's part of `ends`. A work-item is a candidate, as in
+// kernel 1: it copies a candidate's only segment, which kernel 1 kept, and intersects the solid again if there are
+// several.
 //
-//   ends of a ray:   in out | in out | in out ...      by ascending solid, then by distance
+//   boundaries of a ray:   in out | in out | in out ...      by ascending solid, then by distance
 //
-// The number of an end's ray stands in the end's word of `bits` until kernel 3 has read it. It cannot stand in the
-// end's node: the nodes may lie in the same memory as `found`.
+// The number of a boundary's ray stands in the boundary's word of `bits` until kernel 3 has read it. It cannot stand in
+// the boundary's node: the nodes may lie in the same memory as `found`.
 #include "traversal/camera.h"
 #include "shared/capacity.h"
 #include "shared/scene_args.h"
@@ -20,7 +21,7 @@ static void store(__global const Frame* frame, Geometry g, __global const RayRec
     if (c.count > 1 || (MANY_SEGMENTS >> g.solids[c.solid].type & 1u)) {
         ray3 r;
         ray_range wanted;
-        u32 near = 0;  // it is not
+        u32 near = 0;  // the ray's range does not begin within the solid
         if (!ray_of(frame, rays, number_of(frame, listed, c.ray), &r, &wanted)) return;
         collect_as_it_is(g, g.solids[c.solid], c.solid, r, wanted.t_min, ends + base, &near);
     } else

@@ -2,23 +2,24 @@
 //
 //   sort blocks -> merge, merge, ... -> sweep, sweep, ...
 //
-// The ends are sorted as order_ends sorts them: in blocks, which are merged two by two. The order stands in the nodes:
-// in `next`, or in `in_end` before the other merges. Then one work-item a ray passes the events from front to back.
-// Partitions and their nodes are those of weave. In place of their bits, a count of each solid's open segments and a
-// status tree (boolean/status_tree.h) of the regions are kept, which change by a few words where a solid begins or ends
-// to cover. A launch passes a limited number of ends, so that it is short, and the next goes on.
+// The boundaries are sorted as order_ends sorts them: in blocks, which are merged two by two. The order stands in the
+// nodes: in `next`, or in `in_end` before the other merges. Then one work-item a ray passes the events from front to
+// back. Partitions and their nodes are the same as weave's. In place of the partitions' bits, the sweep keeps a count
+// of each solid's open segments and a status tree of the regions (boolean/status_tree.h). Both change by a few words
+// where a solid begins or ceases to cover. A launch passes a limited number of boundaries, so that it is short, and the
+// next launch goes on.
 #include "traversal/camera.h"
 #include "boolean/status_tree.h"
 #include "geometry/beyond.h"
 
 #define FIELD_IN_END 0u
 #define FIELD_NEXT 2u
-// The number in that place of a ray's order.
+// The number of the boundary at position `place` of a ray's order.
 static __global u32* in_order(__global PartitionNode* nodes, u32 field, u32 place) {
     return (__global u32*)(nodes + place) + field;
 }
 
-// The deep ray that a block is of.
+// The deep ray that a block belongs to.
 static u32 deep_ray_of(__global const DeepRay* deep, u32 count, u32 block) {
     u32 low = 0, high = count;  // deep[low].block <= block < deep[high].block
     while (high - low > 1) {
@@ -32,10 +33,10 @@ static u32 deep_ray_of(__global const DeepRay* deep, u32 count, u32 block) {
     return low;
 }
 
-// A block of a deep ray's order: its ends are in the places from `first` on.
+// A block of a deep ray's order: its boundaries have the positions from `first` on.
 typedef struct {
-    __global const End* ends;       // all of the ray
-    __global PartitionNode* nodes;  // the same
+    __global const End* ends;       // of the whole ray
+    __global PartitionNode* nodes;  // of the whole ray
     u32 ends_count, first;
 } deep_block;
 
@@ -56,7 +57,7 @@ static int ends_before(__global const End* ends, u32 a, u32 b) {
     return t_a < t_b || (t_a == t_b && a < b);
 }
 
-// One work-item a block.
+// Sorts one block a work-item.
 __kernel void sort_deep_blocks(__global const DeepRay* deep, u32 count, u32 blocks, __global const RayCount* offsets,
                                __global const End* all_ends, __global PartitionNode* all_nodes, u32 field) {
     const u32 id = (u32)get_global_id(0);
@@ -74,8 +75,8 @@ __kernel void sort_deep_blocks(__global const DeepRay* deep, u32 count, u32 bloc
     for (k = 0; k < size; ++k) *in_order(b.nodes, field, b.first + k) = order[k];
 }
 
-// Merges runs of `run` ends, two by two. One work-item a block of the result, whose ends come from both runs: how many
-// from the left one is found by bisection.
+// Merges runs of `run` boundaries, two by two. A work-item makes one block of the result, whose boundaries come from
+// both runs. How many come from the left run is found by bisection.
 __kernel void merge_deep_runs(__global const DeepRay* deep, u32 count, u32 blocks, __global const RayCount* offsets,
                               __global const End* all_ends, __global PartitionNode* all_nodes, u32 field, u32 run) {
     const u32 id = (u32)get_global_id(0), to = field == FIELD_NEXT ? FIELD_IN_END : FIELD_NEXT;
@@ -88,7 +89,7 @@ __kernel void merge_deep_runs(__global const DeepRay* deep, u32 count, u32 block
     left = place - place % (2 * run);
     left_end = right = left + run < b.ends_count ? left + run : b.ends_count;
     right_end = right + run < b.ends_count ? right + run : b.ends_count;
-    before = place - left;  // as many of both runs are in blocks before this one
+    before = place - left;  // boundaries of both runs in the blocks before this one
     low = before > right_end - right ? before - (right_end - right) : 0;
     high = before < left_end - left ? before : left_end - left;
     while (low < high) {
@@ -110,7 +111,8 @@ __kernel void merge_deep_runs(__global const DeepRay* deep, u32 count, u32 block
     }
 }
 
-// Status trees of rays, each SIDES times, where no solid covers: functions of clusters, then the set of regions.
+// Clears the status trees of `count` rays, SIDES trees a ray, to the state in which no solid covers: the clusters'
+// functions, then the set of regions.
 __kernel void clear_status(__global const u32* outside, u32 cluster_words, u32 words, u32 count, __global u32* status) {
     const u32 id = (u32)get_global_id(0);
     if (id < count) status[id] = id % words < cluster_words ? outside[id % words] : 0;
@@ -119,12 +121,13 @@ __kernel void clear_status(__global const u32* outside, u32 cluster_words, u32 w
 // A scene's status tree, and its size.
 typedef struct {
     __global const u32* links;
-    __global const u32* first_leaves;  // one a solid and one behind: its leaves
-    __global const u32* leaves;        // cluster << 2 | what changes of its function where the solid covers
+    __global const u32* first_leaves;  // one a solid, and one more: where the solid's leaves begin
+    __global const u32* leaves;        // cluster << 2 | the bits of its function that change where the solid covers
     u32 cluster_words, regions;
 } status_tree;
 
-// Opens or closes a segment: its solid begins or ends to cover, if it is the only open one. Returns whether it does.
+// Opens or closes a segment. Its solid begins or ceases to cover if no other segment of the solid is open. Returns
+// whether it does.
 static u32 change_cover(status_tree tree, u32 solid, u32 opens, __global u32* covers, __global u32* status) {
     const u32 count = *covers, changes = count == !opens;
     *covers = opens ? count + 1 : count - 1;
@@ -138,7 +141,7 @@ static u32 change_cover(status_tree tree, u32 solid, u32 opens, __global u32* co
     return changes;
 }
 
-// As find_claim_beside: PartitionNode.owner of what is open. `first`, `end`: of the sides.
+// Returns PartitionNode.owner for the open segments, as find_claim_beside does. `first`, `end`: the range of the sides.
 static u32 deep_owner(status_tree tree, __global const u32* ranks, __global const u32* status, u32 words, u32 first,
                       u32 end, u32 beyond) {
     u32 side, owner = NONE, is_overlap = 0;
@@ -154,7 +157,7 @@ static u32 deep_owner(status_tree tree, __global const u32* ranks, __global cons
     return owner | (is_overlap ? OVERLAP : 0u);
 }
 
-// Before the first event: no segment is open.
+// Starts a deep ray before its first event: no segment is open.
 static u32 start_deep_ray(__global const End* ends, u32 count, u32 beyond, __global DeepSegment* of_segment) {
     u32 i, side, first = 0, solid = NONE, marked = 0;
     for (i = 0; i < count; ++i) {
@@ -173,7 +176,7 @@ static u32 start_deep_ray(__global const End* ends, u32 count, u32 beyond, __glo
     return marked || beyond ? SIDES : 1u;
 }
 
-// Passes over the ends of the next event, from swept.at on: its segments will change sides at once.
+// Passes over the boundaries of the next event, from swept.at on. Their segments will change sides at once.
 static void find_event(DeepRay* swept, u32 end_count, real tolerance, __global End* ends,
                        __global const PartitionNode* list, __global DeepSegment* of_segment) {
     u32 at = swept->at, e = list[at].next, i;
@@ -196,9 +199,9 @@ static void find_event(DeepRay* swept, u32 end_count, real tolerance, __global E
     swept->at = at;
 }
 
-// One work-item a deep ray from `first_ray` on. `limit`: how many ends a launch takes at most, each of which may change
-// all of the status tree that stands above it. `status`: of clear_status, for each side of the ray; when a ray is
-// through, it is as it was, for the next ray.
+// Sweeps one deep ray a work-item, from `first_ray` on. `limit`: how many boundaries a launch passes at most; each may
+// change all of the status tree above its leaves. `status`: made by clear_status, a tree for each side of the ray. When
+// a ray is done, its trees are clear again for the next ray.
 __kernel void sweep_deep_rays(__global const Frame* frame, __global const RayRecord* rays, __global const u32* listed,
                               __global DeepRay* deep, u32 first_ray, u32 first_segment, u32 count,
                               __global const RayCount* offsets, __global End* all_ends,
@@ -241,7 +244,7 @@ __kernel void sweep_deep_rays(__global const Frame* frame, __global const RayRec
         for (; swept.changed < swept.at && swept.changed < stop; ++swept.changed) {
             const u32 segment = list[swept.changed].next >> 1, is_open = of_segment[segment].is_open;
             list[swept.changed].in_end = NONE;
-            if (is_open == 1u || is_open == 2u) {  // not what vanishes
+            if (is_open == 1u || is_open == 2u) {  // a segment that vanishes is left out
                 const End end = ends[2 * segment];
                 __global u32* const covers = of_segment[of_segment[segment].first].covers;
                 u32 side;

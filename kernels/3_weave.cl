@@ -1,17 +1,17 @@
-// Kernel 3: a ray's segments -> its partitions, in order of distance.
+// Kernel 3: makes partitions of a ray's segments, in order of distance.
 //
 //   segments   A  |-------------|
 //              B         |--------------|
 //              C     |---------|
-//   ends          A  C   B     C A      B
+//   boundaries    A  C   B     C A      B
 //   partitions    |P1|P2 |  P3 |4|  P5  |        a doubly linked list by index, a bit array each:
 //   bits A B C    100 101 111 110 010            which segments cover the partition
 //
-// First each end counts how many come before it (by t, then number): its place. Then one sweep, front to back, takes
-// all ends within Frame.tolerance (a length, whatever the direction's) of the first of them as one event, so that
-// surfaces that coincide change together, whichever comes first: a segment that begins and ends in one event
-// vanishes. The event's t is that of its first end, and a partition's node is in the place of that end, so the list
-// needs no memory but the 2 * segments nodes.
+// First each boundary counts how many come before it (by t, then by number): its position. Then one sweep, front to
+// back, makes events. An event is a boundary together with all boundaries that follow within Frame.tolerance (a length,
+// whatever the direction's length). So surfaces that coincide change together, whichever comes first, and a segment
+// that begins and ends in one event vanishes. The event's t is that of its first boundary. A partition's node has the
+// index of this boundary's position, so the list needs no memory but the 2 * segments nodes.
 #include "traversal/camera.h"
 #include "shared/capacity.h"
 
@@ -29,7 +29,7 @@ static void order_end(u32 id, u32 ray, __global const RayCount* offsets, __globa
     all_nodes[base + place].next = number;
 }
 
-// One work-item an end. `ray_of_end`: kernel 2 left it in the words of `bits`.
+// Orders one boundary a work-item. `ray_of_end`: kernel 2 left the boundary's ray in the words of `bits`.
 __kernel void order_ends(__global const Frame* frame, __global const RayCount* offsets, __global const End* all_ends,
                          __global const u32* ray_of_end, __global PartitionNode* all_nodes) {
     const u32 id = (u32)get_global_id(0);
@@ -65,8 +65,8 @@ __kernel void weave(__global const Frame* frame, __global const RayRecord* rays,
     bits = all_bits + offset.words;
     words = words_of(segment_count);
     tolerance = tolerance_along(frame, r);
-    // The first end that is not taken yet, and the number of the next: loaded one step ahead, so that the loop does
-    // not wait.
+    // The first boundary that is not taken yet, and the number of the next. The next is loaded one step ahead, so that
+    // the loop does not wait.
     e = list[0].next;
     after_e = list[1].next;
     t_e = ends[e].t;
@@ -80,7 +80,7 @@ __kernel void weave(__global const Frame* frame, __global const RayRecord* rays,
         const real t = t_e;
         __global u32* now = bits + event * words;
         u32 in_end = NONE, out_end = NONE, w, i, any = 0;
-        // All ends of this event change sides at once.
+        // All boundaries of this event change sides at once.
         for (w = 0; w < words; ++w) now[w] = open_bits == NONE ? 0 : bits[open_bits * words + w];
         do {
             now[e >> 6] ^= 1u << (e >> 1 & 31u);
@@ -89,8 +89,8 @@ __kernel void weave(__global const Frame* frame, __global const RayRecord* rays,
             t_e = ends[e].t;
             if (at + 1 < 2 * segment_count) after_e = list[at + 1].next;
         } while (t_e == t || t_e - t <= tolerance);
-        // The surface there is the first end whose segment does not vanish: one that begins, for the partition behind;
-        // one that ends, for the partition before.
+        // The surface at the event is that of the first boundary whose segment does not vanish: for the partition
+        // behind the event a boundary where a segment begins, for the partition before it one where a segment ends.
         for (i = event; i < at; ++i) {
             const u32 ended = i == event ? first : list[i].next, segment = ended >> 1;
             const u32 after = has_bit(now, segment);

@@ -1,16 +1,17 @@
-// Kernel 4: finds the region that claims each partition. A work-item is a node, so that no partition waits for those
-// before it.
+// Kernel 4: finds the region that claims each partition. A work-item is a node, so that no partition waits for the
+// partitions before it.
 //
-// Where regions overlap, the one of the smallest index has the partition. As in BRL-CAD, solids come before FASTGEN's
-// plates, these before its volumes, and air comes last; regions of one rank come in the model's order. A rule that
-// looked at the partition before would depend on the ray's direction.
+// Of regions that overlap, the region of the smallest index has the partition. Regions are numbered as BRL-CAD ranks
+// them: solids come before FASTGEN's plates, plates before its volumes, and air comes last; regions of one rank come in
+// the model's order. A rule that looked at the partition before would depend on the ray's direction.
 #include "boolean/claim.h"
 #include "geometry/beyond.h"
 #include "traversal/camera.h"
 #include "shared/capacity.h"
 #include "shared/scene_args.h"
 
-// `c` comes with the scene's tables and the ray's `beyond`; the rest of it is set here.
+// Returns PartitionNode.owner for node `id`. `c` comes with the scene's tables and the ray's `beyond`; its other
+// members are set here.
 static u32 owner_of(__global const u32* ranks, cover c, u32 id, u32 ray, __global const RayCount* offsets,
                     __global const End* all_ends, __global const u32* all_bits) {
     const RayCount offset = offsets[ray];

@@ -26,7 +26,7 @@ __kernel void shade(__global const Frame* frame, GEOMETRY_ARGS, APPEARANCE_ARGS,
     nodes += 2 * (size_t)offsets[id].segments;
     ends += 2 * (size_t)offsets[id].segments;
     {
-        // The first claimed partition of which a part is in the range.
+        // The first claimed partition that lies in the range, in whole or in part.
         const real after = parameter_at(r, visible.after), before = parameter_at(r, visible.before);
         const u32 seen_end = frame->rank_ends[RANK_AIR];
         u32 next;

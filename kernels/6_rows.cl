@@ -4,7 +4,7 @@
 //   count rows -> (scan) -> write rows -> describe rows
 //                                      -> count claimants -> (scan) -> list claimants
 //
-// Each array is optional: its argument is 0 if nobody asked for it.
+// Each array is optional: its argument is 0 if the caller does not want the array.
 #include "shared/scene_args.h"
 #include "geometry/solid.h"
 #include "boolean/claimants.h"
@@ -18,7 +18,7 @@ static ray_rows rows_at(__global const Frame* frame, __global const RayRecord* r
                    offsets[ray + 1].segments - first);
 }
 
-// Of a ray's rows in counts.segments, and of partitions that overlap in counts.words.
+// Counts a ray's rows in counts.segments, and its partitions that overlap in counts.words.
 __kernel void count_rows(__global const Frame* frame, __global const RayRecord* rays, __global const RayCount* offsets,
                          __global const End* ends, __global const PartitionNode* nodes, __global RayCount* counts) {
     const u32 id = (u32)get_global_id(0);
@@ -70,7 +70,8 @@ __kernel void write_rows(__global const Frame* frame, __global const RayRecord* 
     }
 }
 
-// At one of a row's ends: the solid whose surface it is, and the normal; -1 and zeros where the range cuts the row.
+// Describes one boundary of a row: the solid whose surface it is, and the normal; -1 and zeros where the range cuts the
+// row.
 static void describe_end(__global const Frame* frame, Geometry g, __global const RayRecord* rays,
                          __global const End* ends, u32 ray, u32 number, u32 is_out, size_t place, __global int* solids,
                          __global wide* normals) {
@@ -89,7 +90,7 @@ static void describe_end(__global const Frame* frame, Geometry g, __global const
     }
 }
 
-// One work-item a row. `bounds`: write_rows'.
+// Describes one row a work-item. `bounds`: the output of write_rows.
 __kernel void describe_rows(__global const Frame* frame, GEOMETRY_ARGS, __global const RayRecord* rays,
                             __global const End* ends, __global const RowEnds* bounds, u32 rows, __global int* in_solids,
                             __global int* out_solids, __global wide* in_normals, __global wide* out_normals) {
@@ -102,7 +103,7 @@ __kernel void describe_rows(__global const Frame* frame, GEOMETRY_ARGS, __global
     describe_end(frame, g, rays, ends, b.ray, b.out_end, 1, id, out_solids, out_normals);
 }
 
-// The partition of a piece that no deep ray has; kernel 4 evaluated it.
+// The partition of a record, whose ray is not deep: kernel 4 evaluated it.
 static cover cover_of(OverlapPiece piece, __global const SolidRecord* solids, REGION_ARGS,
                       __global const RayCount* offsets, __global const End* ends, __global const u32* bits) {
     const RayCount offset = offsets[piece.ray];
@@ -118,7 +119,7 @@ static cover cover_of(OverlapPiece piece, __global const SolidRecord* solids, RE
     return c;
 }
 
-// One work-item a piece: how many claims list_claimants stores on the way.
+// Counts, one record a work-item, how many claims list_claimants stores on the way.
 __kernel void count_claimants(EVALUATION_ARGS, __global const RayCount* offsets, __global const End* ends,
                               __global const u32* bits, __global const OverlapPiece* pieces, u32 piece_count,
                               __global RayCount* places) {

@@ -3,10 +3,10 @@
 // processors a packet of eight (packet/first_hits_packet.h).
 //
 // For a batch whose picture is row-major the host launches a work-item for each ray of all tiles, before it knows how
-// many tiles the list has; items behind its end return at once.
+// many tiles the list has. Work-items behind the list's last entry return at once.
 
-// The number of the ray of work-item `id`, by the list of tiles (PART_SHIFT). COUNT_MAX, which no ray of a picture
-// has: the item has none.
+// The number of the ray of work-item `id`, by the list of tiles (PART_SHIFT). COUNT_MAX, which no ray of a picture has:
+// the work-item has no ray.
 FN u32 number_in_part(__global const u32* entries, u32 id) {
     const u32 entry = entries[id / (TILE * TILE)], code = entry >> PART_SHIFT, within = id % (TILE * TILE);
     const u32 parts = code ? PARTS : 1u, rays = ASSUMED_WARP / parts, part = code ? code - PARTS : 0;

@@ -1,18 +1,19 @@
-// The first row of each ray of a list, on processors, without segments in memory: packets of eight rays go from front
-// to back, as those of a picture do (first_hits.cl). A list has no tiles, so each packet lists its nodes itself.
+// Finds the first row of each ray of a list, on processors, without segments in memory: packets of eight rays go from
+// front to back, as the packets of a picture do (first_hits.cl). A list has no tiles, so each packet lists its nodes
+// itself.
 #include "shared/scene_args.h"
 #include "packet/listed.h"
 #include "packet/hits.h"
 
-// Which boxes the active rays meet within their ranges.
+// The test of which boxes the active rays meet within their ranges.
 typedef struct {
     packet_slab_ray slabs;
     float8 range_end;
     u32 active_mask;
 } packet_boxes;
 
-// Where the first of them enters the node's box; BOX_MISSED: none does. A box that is entered before a ray's range may
-// hold a segment that begins even earlier.
+// Returns where the first active ray enters the node's box; BOX_MISSED: none does. A box that is entered before a ray's
+// range may hold a segment that begins even earlier.
 static TileNode packet_entry(packet_boxes b, __global const BvhNode* nodes, u32 node) {
     float8 out, in = box_passage(b.slabs, nodes[node], &out);
     const int8 is_hit = in <= out && in <= b.range_end && of_bits(b.active_mask);
@@ -28,8 +29,8 @@ static TileNode packet_entry(packet_boxes b, __global const BvhNode* nodes, u32 
     return e;
 }
 
-// Lists nodes that hold all that the rays meet, the nearest first, and behind them none: from the root down, level by
-// level, as kernel 0 does it for a tile.
+// Lists nodes that hold everything that the rays meet, the nearest first, with an entry of no node at the end. The list
+// is made from the root down, level by level, as kernel 0 makes a tile's.
 static void list_packet_nodes(packet_boxes b, __global const BvhNode* nodes, u32 node_count,
                               __global TileNode* stored) {
     TileNode list[PACKET_NODES];
@@ -44,7 +45,7 @@ static void list_packet_nodes(packet_boxes b, __global const BvhNode* nodes, u32
             if (nodes[list[i].node].leaf) continue;
             first = packet_entry(b, nodes, list[i].node + 1);
             second = packet_entry(b, nodes, nodes[list[i].node + 1].skip);
-            list[i] = first.entry <= second.entry ? first : second;  // both are missed: it goes
+            list[i] = first.entry <= second.entry ? first : second;  // if both are missed, the entry goes
             if (first.entry < BOX_MISSED && second.entry < BOX_MISSED)
                 list[count++] = first.entry <= second.entry ? second : first;
             split |= list[i].entry < BOX_MISSED;
@@ -81,19 +82,21 @@ static void start_listed(packet* p, __global const Frame* f, __global const RayR
         p->reach[k].tolerance = tolerance_along(f, geometry_ray(f, listed_ray(rays[ray])));
         p->reach[k].unit = length[k];
         p->reach[k].per_unit = 1 / length[k];
-        p->reach[k].offset = shift[k] - real_abs(shift[k]) * 0x1p-49;  // a far origin's rounding: see distance_before
+        p->reach[k].offset = shift[k] - real_abs(shift[k]) * 0x1p-49;  // the rounding of a far origin: see
+                                                                       // distance_before
     }
 }
 
-// The row of a ray whose first claim is known, as cut_row has it (boolean/rows.h). 0: it begins behind the range.
+// Begins the row of a ray whose first claim is known, as cut_row does (boolean/rows.h). 0: the row begins behind the
+// range.
 static int begin_of_row(const sweep* w, RayRecord record, real* t, u32* is_cut) {
     *is_cut = w->goes_on || w->seen.t < record.t_near;
     *t = *is_cut ? record.t_near : w->seen.t;
     return record.t_near < record.t_far ? *t < record.t_far : *is_cut || *t <= record.t_near;
 }
 
-// One work-item a packet. `lists`: memory for PACKET_NODES entries of each. Of each ray `regions` get the region, NONE
-// or HIT_UNKNOWN, and `seen_solids` NONE where the range cuts the row. `normals` may be 0.
+// Runs one work-item a packet. `lists`: memory for PACKET_NODES entries of each packet. For each ray `regions` gets the
+// region, NONE or HIT_UNKNOWN; `seen_solids` gets NONE where the range cuts the row. `normals` may be 0.
 __kernel void hit_listed_rays(__global const Frame* frame, GEOMETRY_ARGS, __global const BvhNode* nodes, REGION_ARGS,
                               __global const RayRecord* rays, __global TileNode* lists, __global u32* regions,
                               __global real* distances, __global u32* seen_solids, __global real* normals) {

@@ -1,6 +1,6 @@
-// Between kernels 1 and 2: exclusive prefix sums over RayCount, in place. A group of SCAN_GROUP items sums SCAN_BLOCK
-// entries; one group sums the blocks' sums, which are added to their entries. Sums saturate at COUNT_MAX, which tells
-// the host that the batch is too large.
+// Scan, between kernels 1 and 2: exclusive prefix sums over RayCount, in place. A group of SCAN_GROUP work-items sums
+// SCAN_BLOCK entries; one group sums the blocks' sums, which are added to their entries. Sums saturate at COUNT_MAX,
+// which tells the host that the batch is too large.
 //
 //   scan blocks -> scan sums -> scan add
 #include "shared/layout.h"
@@ -9,8 +9,8 @@
 #define SCAN_EACH 16
 #define SCAN_BLOCK (SCAN_GROUP * SCAN_EACH)
 
-// Where an entry of a block stands in local memory. The gaps keep items that each go through SCAN_EACH entries off
-// the same bank.
+// The index of a block's entry in local memory. The gaps keep work-items that each go through SCAN_EACH entries off the
+// same bank.
 #define SCAN_PLACE(i) ((i) + (i) / SCAN_EACH)
 #define SCAN_PLACES SCAN_PLACE(SCAN_BLOCK)
 
@@ -20,15 +20,15 @@ static RayCount plus(RayCount a, RayCount b) {
     return a;
 }
 
-// By one group: replaces each of a block's `size` entries by the sum of `before` and the entries before it. Returns
-// the sum of all.
+// Replaces each of a block's `size` entries by the sum of `before` and the entries before it. One group runs it.
+// Returns the sum of all.
 static RayCount scan_block(__global RayCount* counts, u32 size, RayCount before, __local RayCount* entries,
                            __local RayCount* partial) {
     const u32 item = (u32)get_local_id(0), first = item * SCAN_EACH;
     RayCount sum;
     u32 i;
     sum.segments = sum.words = 0;
-    for (i = item; i < SCAN_BLOCK; i += SCAN_GROUP)  // neighbours in memory are read by neighbours
+    for (i = item; i < SCAN_BLOCK; i += SCAN_GROUP)  // neighbours in memory are read by neighbouring work-items
         entries[SCAN_PLACE(i)] = i < size ? counts[i] : sum;
     barrier(CLK_LOCAL_MEM_FENCE);
     for (i = first; i < first + SCAN_EACH; ++i) sum = plus(sum, entries[SCAN_PLACE(i)]);
@@ -64,7 +64,7 @@ __kernel void scan_blocks(__global RayCount* counts, __global RayCount* sums, u3
     if (get_local_id(0) == 0) sums[block] = sum;
 }
 
-// By one group.
+// Sums the blocks' sums. One group runs it.
 __kernel void scan_sums(__global RayCount* sums, u32 size) {
     __local RayCount entries[SCAN_PLACES], partial[SCAN_GROUP];
     RayCount sum;

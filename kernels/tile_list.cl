@@ -1,15 +1,15 @@
-// Runs on a GPU before the other kernels of a batch whose picture is row-major. It lists the tiles that see anything,
-// the most expensive first, so that the host can launch those kernels without waiting for the list; and it writes the
-// other tiles' background.
+// Tile list: runs on a GPU before the other kernels of a batch whose picture is row-major. It lists the tiles that see
+// anything, the most expensive first, so that the host can launch the other kernels without waiting for the list. It
+// also writes the background of the other tiles.
 #include "traversal/camera.h"
 
-// A class for each cost below 16, then eight for every power of two.
+// Classes of cost: one for each cost below 16, then eight for every power of two.
 static u32 class_of(u32 cost) {
     const u32 power = 31u - clz(cost | 1u);
     return cost < 16u ? cost : 8u * power - 16u + (cost >> (power - 3u) & 7u);
 }
 
-// Counts the tiles of each class. `costs`: kernel 0's, of `count` tiles. One work-item a tile.
+// Counts the tiles of each class, one work-item a tile. `costs`: kernel 0's costs of `count` tiles.
 __kernel void count_tiles(__global const unsigned char* costs, u32 count, __global BatchReport* report) {
     __local u32 tiles[COST_CLASSES];
     const u32 id = (u32)get_global_id(0), item = (u32)get_local_id(0);
@@ -23,17 +23,17 @@ __kernel void count_tiles(__global const unsigned char* costs, u32 count, __glob
 // How many entries of the list a tile of the class has.
 static u32 parts_of(u32 class_number, u32 in_parts) { return in_parts && class_number >= PARTED_CLASS ? PARTS : 1u; }
 
-// Are the most expensive tiles listed in parts? The list has room for one entry a tile: the parts need that of tiles
-// that see nothing.
+// Are the most expensive tiles listed in parts? The list has room for one entry a tile. The parts use the entries of
+// tiles that see nothing.
 static u32 are_in_parts(__local const u32* tiles, u32 most_in_parts) {
     u32 k, in_parts = 0;
     for (k = PARTED_CLASS; k < COST_CLASSES; ++k) in_parts += tiles[k];
     return in_parts <= most_in_parts && in_parts * (PARTS - 1u) <= tiles[0];
 }
 
-// Stores in `numbers` the batch's tiles that see anything; `first` is the number of its first tile. Tiles of one
-// class come in any order. The most expensive come first, and in parts if there are at most `most_in_parts`: else the
-// device waits for them at the end.
+// Stores in `numbers` the batch's tiles that see anything. `first`: the number of the batch's first tile. Tiles of one
+// class come in any order. The most expensive tiles come first, since otherwise the device waits for them at the end.
+// They are listed in parts if there are at most `most_in_parts` of them.
 __kernel void list_tiles(__global const unsigned char* costs, u32 first, u32 count, u32 most_in_parts,
                          __global BatchReport* report, __global u32* numbers) {
     __local u32 all[COST_CLASSES], tiles[COST_CLASSES], places[COST_CLASSES];
@@ -65,8 +65,7 @@ __kernel void list_tiles(__global const unsigned char* costs, u32 first, u32 cou
     }
 }
 
-// Writes the background of tiles that see nothing, in a row-major picture. One group of TILE *
-// TILE items a tile.
+// Writes the background of tiles that see nothing, in a row-major picture. One group of TILE * TILE work-items a tile.
 __kernel void write_background(__global const unsigned char* costs, ScreenBounds screen, u32 first_ray, u32 rows,
                                u32 channels, ChannelValues background, __global float* picture) {
     pixel_position at;

@@ -1,8 +1,8 @@
-// Finds the regions that claim a partition.
+// Claims: finds the regions that claim a partition.
 //
-// A region's tree is a union of terms (Goldfeather et al. 1986 have the name); a term that is no leaf is an
+// A region's tree is a union of terms (the name is from Goldfeather et al. 1986). A term that is no leaf is an
 // intersection, a difference or a xor. A term can only be true where one of the leaves that start it is covered
-// (StartRecord), so only terms are looked at that some solid of the partition starts, however large the region is.
+// (StartRecord). So only terms that some solid of the partition starts are evaluated, however large the region is.
 //
 //   region   (a + b - c) u (d - e) u f
 //   starts    a or b        d        f       cover {c, d}: only d - e is evaluated
@@ -18,7 +18,7 @@ typedef struct {
     u32 segments;
     u32 missed;  // missed_on() a side: segments that miss it do not cover
     u32 marked;  // 0: no segment has MISSED_... set
-    u32 beyond;  // MISSED_...: sides that a plane of the view takes away
+    u32 beyond;  // MISSED_...: sides that a plane of the view cuts away
     GLOBAL const SolidRecord* solids;
     GLOBAL const StartRecord* starts;
     GLOBAL const u32* trees;
@@ -27,20 +27,20 @@ typedef struct {
 FN u32 is_missed(cover c, u32 segment) { return c.missed && (c.ends[2 * segment].surface & c.missed); }
 FN u32 covers(cover c, u32 segment) { return (c.bits[segment >> 5] >> (segment & 31u) & 1u) && !is_missed(c, segment); }
 
-// The solids that cover a partition: a list if they are few, and a filter (as Bloom's) that most others do not pass.
+// The solids that cover a partition: a list if they are few, and a (Bloom) filter that most other solids do not pass.
 #ifdef CSGRT_FEW
 #define FEW CSGRT_FEW  // a multiple of 32
 #else
 #define FEW 32u
 #endif
 typedef struct {
-    u32 count;      // more than FEW: they are not listed
+    u32 count;      // more than FEW: the solids are not listed
     u32 even, odd;  // the filter
     u32 missed;     // MISSED_... of all their segments
     u32 solids[FEW];
 } covered_solids;
 
-// Word by word: a processor that has stored two words just now waits longer for both of them in one.
+// Reads the filter word by word: a processor that has just stored two words waits longer if it loads both at once.
 FN SolidFilter filter_of_covered(const covered_solids* list) {
     SolidFilter f;
     f.even = list->even;
@@ -48,7 +48,7 @@ FN SolidFilter filter_of_covered(const covered_solids* list) {
     return f;
 }
 
-// The segment of the lowest of a word's bits, which is taken away.
+// Returns the segment of the lowest bit of a word, and clears the bit.
 FN u32 take_segment_of(u32 word, u32* bits) {
     u32 lowest = *bits & (0u - *bits);
     *bits ^= lowest;
@@ -83,7 +83,7 @@ FN u32 is_covered(cover c, const covered_solids* list, u32 solid) {
         while (low < list->count && list->solids[low] != solid) ++low;
         return low < list->count;
     }
-    while (low < high) {  // many: a ray's ends stand sorted by solid in memory
+    while (low < high) {  // many solids: a ray's boundaries are sorted by solid in memory
         u32 middle = (low + high) >> 1;
         if (c.ends[2 * middle].solid < solid) {
             low = middle + 1;
@@ -102,7 +102,7 @@ FN u32 is_covered(cover c, const covered_solids* list, u32 solid) {
      0x4u << 4 * OP_REVERSE_DIFFERENCE)
 
 // The value of the term in the words from `node` to `end`, from the last word on: operands come before their operators,
-// and one bit is kept of each. No step waits for another's memory.
+// and one bit of each is kept. No step waits for another's memory.
 FN u32 scan_term(cover c, const covered_solids* list, u32 node, u32 end) {
     u32 values = 0;
     while (end > node) {
@@ -117,15 +117,15 @@ FN u32 scan_term(cover c, const covered_solids* list, u32 node, u32 end) {
 }
 
 #ifdef CSGRT_LARGE_TERMS
-// The next few covered leaves of a large term, ascending: a leaf_cursor that moves on as they are used up.
+// The next few covered leaves of a large term, ascending. The cursor moves on as they are used up.
 #define CURSOR_LEAVES 8
 typedef struct {
     u32 nodes[CURSOR_LEAVES];
     u32 count, at;
-    u32 more;  // there may be some after those kept
+    u32 more;  // 1: there may be leaves after those kept
 } leaf_cursor;
 
-// Takes up a leaf that is not before the leaf_cursor; 0: it and all greater ones lie behind it.
+// Takes up a leaf that is not before the cursor; 0: the leaf and all greater leaves lie behind it.
 FN u32 keep(leaf_cursor* w, u32 node) {
     u32 k = w->count;
     if (k == CURSOR_LEAVES) {
@@ -149,7 +149,7 @@ FN void fill_cursor(leaf_cursor* w, cover c, u32 from, u32 end) {
         while (bits) {
             const u32 segment = take_segment_of(word, &bits), solid = c.ends[2 * segment].solid;
             u32 low = c.solids[solid].first_leaf, high = low + c.solids[solid].leaf_count, last = high;
-            while (low < high) {  // to the first at or after `from`
+            while (low < high) {  // finds the first at or after `from`
                 u32 middle = (low + high) >> 1;
                 if (c.trees[middle] < from) {
                     low = middle + 1;
@@ -166,7 +166,7 @@ FN void fill_cursor(leaf_cursor* w, cover c, u32 from, u32 end) {
     }
 }
 
-// Moves to the first leaf at or after `from`, which never goes back. 0: there is none before `end`.
+// Moves to the first leaf at or after `from`, which never decreases. 0: there is none before `end`.
 FN u32 find_leaf(leaf_cursor* w, cover c, u32 from, u32 end) {
     while (w->at < w->count && w->nodes[w->at] < from) ++w->at;
     if (w->at == w->count && w->more) fill_cursor(w, c, from, end);
@@ -175,10 +175,10 @@ FN u32 find_leaf(leaf_cursor* w, cover c, u32 from, u32 end) {
 
 #define NEGATE_BIT 0x80000000u
 
-// The same for a large term, from covered leaf to covered leaf: a subtree with all its leaves outside is empty (the
-// compiler leaves no complements), so it is never entered, and a right subtree whose value cannot matter is skipped,
-// too. No recursion: a stack entry is an operator whose left operand is being looked at; `negate` turns the value
-// around that the current subtree hands up. How the compiler keeps the stack short stands in shared/layout.h.
+// The value of a large term, from covered leaf to covered leaf. A subtree without a covered leaf is false (there are no
+// complements), so it is never entered. A right subtree whose value cannot matter is skipped, too. There is no
+// recursion: a stack entry is an operator whose left operand is under evaluation; `negate` inverts the value that the
+// current subtree hands up. shared/layout.h says how the scene compiler keeps the stack short.
 FN u32 walk_term(cover c, u32 node, u32 end) {
     u32 stack[TREE_STACK], ends[TREE_STACK];
     u32 depth = 0, negate = 0, value, term_end = end;
@@ -203,7 +203,7 @@ FN u32 walk_term(cover c, u32 node, u32 end) {
                     end = right;
                     continue;
                 }
-                // The left operand is empty.
+                // The left operand is false.
                 if (op != OP_INTERSECTION && op != OP_DIFFERENCE) {
                     node = right;
                     continue;
@@ -246,7 +246,7 @@ FN u32 role_of(GLOBAL const u32* table, u32 shift, u32 solid) {
     return entry == NONE ? 0 : entry >> TREE_SHIFT;
 }
 
-// The term's value if roles tell it, else ROLE_UNDECIDED.
+// The term's value if roles decide it, else ROLE_UNDECIDED.
 FN u32 ask_roles(GLOBAL const u32* roles, const covered_solids* list) {
     const u32 shift = roles[0], wanted = roles[1];
     u32 i, needed = 0, undecided = 0, blocked = 0;
@@ -257,7 +257,8 @@ FN u32 ask_roles(GLOBAL const u32* roles, const covered_solids* list) {
         undecided |= role == ROLE_UNDECIDED;
     }
     if (blocked || (!undecided && wanted == NONE)) return 0;
-    return undecided || wanted != 1 ? ROLE_UNDECIDED : needed;  // a solid may be listed twice: they cannot be counted
+    return undecided || wanted != 1 ? ROLE_UNDECIDED : needed;  // a solid may be listed twice, so they cannot be
+                                                                // counted
 }
 
 FN u32 term_holds(cover c, const covered_solids* list, StartRecord start) {
@@ -276,7 +277,8 @@ FN u32 term_holds(cover c, const covered_solids* list, StartRecord start) {
     return value;
 }
 
-// The regions that claim a partition: that of the least number, and any other of the same rank. NONE: there is none.
+// The claims of a partition: the region of the least number, and any other region of the same rank. NONE: there is
+// none.
 typedef struct {
     u32 least, other;
 } claim;
@@ -287,10 +289,10 @@ FN SolidFilter all_solids(void) {
     return f;
 }
 
-// Evaluates the terms that start at the segments of `starting`, which are some of c.bits. `ranks`: Frame.rank_ends,
-// or 0 if `other` is not wanted. `changed`: if no region claimed before these solids came or went, only a term that has
-// one of them can claim now. Of a term that several of them start, as a xor, each would find the same: what was false
-// just now is not looked at again.
+// Evaluates the terms that start at the segments of `starting`, which are some of c.bits. `ranks`: Frame.rank_ends, or
+// 0 if `other` is not wanted. `changed`: the solids that came or went at the last event. If no region claimed before,
+// only a term that has one of these solids can claim now. Several solids may start one term, as in a xor, and each
+// would find the same value: a term that was false just now is not evaluated again.
 FN claim find_claim(cover c, ENDS const u32* starting, const covered_solids* list, GLOBAL const u32* ranks,
                     SolidFilter changed) {
     claim found;
@@ -320,7 +322,7 @@ FN claim find_claim(cover c, ENDS const u32* starting, const covered_solids* lis
     return found;
 }
 
-// Is it one solid, with one segment or several?
+// Do all segments belong to one solid?
 FN u32 is_one_solid(const covered_solids* list) {
     u32 i;
     for (i = 1; i < list->count && i < FEW && list->solids[i] == list->solids[0]; ++i) {
@@ -328,14 +330,14 @@ FN u32 is_one_solid(const covered_solids* list) {
     return i == list->count;
 }
 
-// As find_claim, for a ray that runs in a face of a covering solid. `list`: the solids that c.bits cover, overwritten
-// here.
+// Finds the claim, as find_claim does, for a ray that runs in a face of a covering solid. `list`: the solids that
+// c.bits cover; it is overwritten.
 //
-// Such a ray is moved to each of four sides, which are the same for all solids: above, below, left and right. There it
-// is within one of the solids that meet in a face, so parts that touch do not overlap, and what both have in common is
-// empty. The first region of any side has the partition, and an overlap is that of its side. Around an edge there are
-// as many wedges as faces meet there; solids that fill less than a quarter of the turn may be on none of the sides. But
-// a solid that is touched alone has the ray in any case.
+// Such a ray is moved to each of four sides, which are the same for all solids: above, below, left and right. On a side
+// it is within only one of the solids that meet in a face, so parts that touch do not overlap, and their intersection
+// is empty. The first region of any side has the partition, and an overlap is an overlap on this side. Around an edge
+// there are as many wedges as faces meet there, so solids that fill less than a quarter of the turn may be on none of
+// the sides. But a solid that is touched alone always has the ray.
 RARE_FN claim find_claim_of_sides(cover c, ENDS const u32* starting, covered_solids* list, GLOBAL const u32* ranks,
                                   SolidFilter changed) {
     const u32 moved = c.beyond || !is_one_solid(list) ? 1u : 0u;

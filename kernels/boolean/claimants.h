@@ -1,14 +1,14 @@
-// All regions that claim a partition which several regions of one rank claim (claim.h finds the first).
+// Claimants: all regions that claim a partition which several regions of one rank claim (claim.h finds the first).
 #ifndef CSGRT_BOOLEAN_CLAIMANTS_H
 #define CSGRT_BOOLEAN_CLAIMANTS_H
 
 #include "claim.h"
 
-// The regions whose terms hold on one side of a contact, as often as one of their starts finds it. Returns how many;
-// stores them from `found` on unless that is 0.
+// Lists the regions whose terms hold on one side of a contact, a region as often as one of its starts is found. Returns
+// how many; stores them from `found` on unless it is 0.
 FN u32 list_claims(cover c, GLOBAL u32* found) {
     covered_solids covered;
-    u32 word, words = words_of(c.segments), count = 0, known = NONE;  // known: the term that was looked at last
+    u32 word, words = words_of(c.segments), count = 0, known = NONE;  // known: the term that was evaluated last
     list_covered(c, &covered);
     for (word = 0; word < words; ++word) {
         u32 bits = c.bits[word];
@@ -28,7 +28,7 @@ FN u32 list_claims(cover c, GLOBAL u32* found) {
     return count;
 }
 
-// The first of the sides that are to be looked at, and the end of them: the ray as it is, or the sides that it has.
+// The range of the sides to evaluate: the ray as it is, or the sides to which it is moved.
 typedef struct {
     u32 first, end;
 } side_range;
@@ -42,7 +42,7 @@ FN side_range sides_to_ask(cover c) {
     return sides;
 }
 
-// At most so many numbers all_claimants() stores on the way.
+// The most numbers that all_claimants() stores on the way.
 FN u32 claims_at_most(cover c) {
     const side_range sides = sides_to_ask(c);
     u32 side, count = 0;
@@ -53,7 +53,7 @@ FN u32 claims_at_most(cover c) {
     return count;
 }
 
-// Sorts (by a heap: there may be thousands), and leaves of equal numbers one. Returns how many are left.
+// Sorts (by a heap: there may be thousands) and removes duplicates. Returns how many are left.
 FN u32 sort_numbers(GLOBAL u32* numbers, u32 count) {
     u32 heap = count / 2, end = count, kept = 0, i;
     while (end > 1) {
@@ -78,8 +78,8 @@ FN u32 sort_numbers(GLOBAL u32* numbers, u32 count) {
     return kept;
 }
 
-// The claimants of the first one's rank, ascending, on the side that find_claim_beside() takes. Returns how many;
-// `found` has room for claims_at_most().
+// Lists the claimants of the first claimant's rank, ascending, on the side that find_claim_beside() takes. Returns how
+// many; `found` has room for claims_at_most().
 FN u32 all_claimants(cover c, GLOBAL const u32* ranks, GLOBAL u32* found) {
     const side_range sides = sides_to_ask(c);
     u32 side, kept = 0, i;

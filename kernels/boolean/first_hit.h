@@ -1,14 +1,14 @@
-// Finds the first claimed partition of a ray, and no other: from front to back, in private memory.
+// First hit: finds the first claimed partition of a ray, and no other, from front to back, in private memory.
 //
-// The list of the ray's tile has the nearest nodes first (kernel 0). Solids that are not intersected yet lie behind
-// the next node, so every event before its distance is complete: no segment can join it. Complete events are passed,
+// The list of the ray's tile has the nearest nodes first (kernel 0). Solids that are not intersected yet lie behind the
+// next node, so every event before the node's distance is complete: no segment can join it. Complete events are passed,
 // and their partitions evaluated, as kernels 3 and 4 do it; the first claim ends the search. Segments that have ended
 // make room for others. A ray that has more than SWEEP_SEGMENTS at a time overflows, and the host has kernels 1 to 5
 // trace it.
 //
 //   nodes      |--seen--|   |--seen--|      |--unseen--|
-//   ends        i     o  i    i   o         :       o  o
-//   events      1     2  3    4   5         : these may be joined by others yet
+//   boundaries  i     o  i    i   o         :       o  o
+//   events      1     2  3    4   5         : others may still join these
 #ifndef CSGRT_BOOLEAN_FIRST_HIT_H
 #define CSGRT_BOOLEAN_FIRST_HIT_H
 
@@ -17,23 +17,24 @@
 #include "../geometry/collect.h"
 #include "../traversal/bvh_cursor.h"
 
-#define SWEEP_SEGMENTS FEW                 // segments that a ray holds at a time: its ends are not sorted by solid
-#define SLOT_WORDS (SWEEP_SEGMENTS / 32u)  // of a bit for each of them
+#define SWEEP_SEGMENTS FEW                 // segments that a ray holds at a time, in no order of solids
+                                           // solid
+#define SLOT_WORDS (SWEEP_SEGMENTS / 32u)  // words of a bit array with a bit for each segment
 
-// The state of the sweep along a ray: the segments that have begun or will begin. Of each, one end comes next: `in`
-// if it is not open yet, else `out`.
+// The state of the sweep along a ray: the segments that have begun or will begin. The next boundary of a segment is
+// `in` if the segment is not open yet, else `out`.
 typedef struct {
     End ends[2 * SWEEP_SEGMENTS];  // of segment s: 2 s and 2 s + 1
     u32 used[SLOT_WORDS];          // bit s: there is a segment s
     u32 open[SLOT_WORDS];          // bit s: it covers the partition that the sweep is in
     u32 starts[SLOT_WORDS];        // bit s: its solid starts some term
-    u32 entry[SLOT_WORDS];         // bit s: some term may begin to be true where it begins
-    u32 exit[SLOT_WORDS];          // bit s: or where it ends
-    real next_event;               // where the next of all these ends is; infinity: there is none
-    End seen;                      // where that partition begins, if it is claimed
-    u32 region;                    // by this one; NONE: it is not
-    u32 from_within;               // it begins where a solid ends
-    u32 goes_on;                   // the same region claims what is before it
+    u32 entry[SLOT_WORDS];         // bit s: some term may begin to be true where segment s begins
+    u32 exit[SLOT_WORDS];          // bit s: or where segment s ends
+    real next_event;               // the distance of the next boundary; infinity: there is none
+    End seen;                      // the boundary where the current partition begins, if it is claimed
+    u32 region;                    // the region that claims it; NONE: none does
+    u32 from_within;               // the partition begins where a solid ends
+    u32 goes_on;                   // the same region claims the partition before
     u32 marked;                    // has any segment so far MISSED_... set?
     u32 beyond;                    // see cover
 } sweep;
@@ -44,7 +45,7 @@ typedef struct {
     GLOBAL const StartRecord* starts;
     GLOBAL const u32* trees;
 #if SHAPED_LIGHTS
-    u32 seen_end;  // the number behind the last region that pictures show
+    u32 seen_end;  // the number after the last region that pictures show
 #endif
 } scene_tables;
 
@@ -56,7 +57,7 @@ FN void start_sweep(sweep* w) {
     w->next_event = REAL_INFINITY;
 }
 
-// A place for one more segment; NONE: there is none.
+// Returns a free slot for one more segment; NONE: there is none.
 FN u32 take_slot(sweep* w, SolidRecord solid) {
     u32 i, slot = NONE;
     for (i = 0; i < SLOT_WORDS && slot == NONE; ++i) {
@@ -72,7 +73,7 @@ FN u32 take_slot(sweep* w, SolidRecord solid) {
     return slot;
 }
 
-// Takes up a segment. 0: there is no room.
+// Adds a segment. 0: there is no room.
 FN int take_segment(sweep* w, SolidRecord solid, End in, End out) {
     const u32 slot = take_slot(w, solid);
     if (slot != NONE) {
@@ -84,7 +85,7 @@ FN int take_segment(sweep* w, SolidRecord solid, End in, End out) {
     return slot != NONE;
 }
 
-// Takes up the solid's segments. 0: there is no room.
+// Adds the solid's segments. 0: there is no room.
 FN int take_solid(sweep* w, Geometry g, u32 index, ray3 r, real t_min) {
     SolidRecord solid = g.solids[index];
     u32 count, i;
@@ -101,7 +102,7 @@ FN int take_solid(sweep* w, Geometry g, u32 index, ray3 r, real t_min) {
     return fits;
 }
 
-// The claim where one segment alone covers; ALONE_UNKNOWN: several do, or the solid's terms have to be looked at.
+// The claim where one segment alone covers; ALONE_UNKNOWN: several cover, or the solid's terms have to be evaluated.
 FN u32 claim_of_one(const sweep* w, scene_tables s) {
     u32 i, several = w->beyond, slot = NONE;
     for (i = 0; i < SLOT_WORDS; ++i) {
@@ -113,8 +114,8 @@ FN u32 claim_of_one(const sweep* w, scene_tables s) {
     return several || slot == NONE ? ALONE_UNKNOWN : s.g.solids[w->ends[2 * slot].solid].alone;
 }
 
-// The region that claims what the open segments cover. NONE, too, if it is one that no picture shows: such regions
-// have the last numbers, so no other claims.
+// The region that claims the space that the open segments cover. NONE also if the region is hidden: hidden regions have
+// the last numbers, so no other region claims.
 FN u32 first_claim(const sweep* w, scene_tables s, SolidFilter changed) {
     u32 starting[SLOT_WORDS], i, any = 0, alone, region;
     for (i = 0; i < SLOT_WORDS; ++i) any |= starting[i] = w->open[i] & w->starts[i];
@@ -141,17 +142,17 @@ FN u32 first_claim(const sweep* w, scene_tables s, SolidFilter changed) {
     return region;
 }
 
-// The order in which kernel 3 links ends: by distance, then by solid.
+// The order in which kernel 3 links boundaries: by distance, then by solid.
 FN int comes_before(End a, End b) { return a.t < b.t || (a.t == b.t && a.solid < b.solid); }
 
-// What happens at an event: the first end where a segment begins to cover, and the first where one ceases to.
+// An event: the first boundary where a segment begins to cover, and the first where a segment ceases to.
 typedef struct {
     End in, out;          // solid NONE: there is none
     SolidFilter changed;  // the solids that come or go
     u32 begins;           // not 0: a term may begin to be true
 } event;
 
-// Passes the next event: the ends at w->next_event, and those within the tolerance behind it.
+// Passes the next event: the boundaries at w->next_event, and those within the tolerance behind it.
 FN event pass_event(sweep* w, real tolerance) {
     const real t = w->next_event;
     u32 word;
@@ -199,7 +200,7 @@ FN int advance(sweep* w, scene_tables s, real tolerance, real after, real horizo
         const real t = w->next_event;
         event e = pass_event(w, tolerance);
         const int matters = w->region == NONE ? e.begins != 0 : e.in.solid != NONE || e.out.solid != NONE;
-        // What ends there or before is not seen.
+        // A partition that ends at `after` or before is not seen.
         found = matters && w->region != NONE && t > after;
         if (matters && !found) {
             const u32 before = w->region;
@@ -213,7 +214,7 @@ FN int advance(sweep* w, scene_tables s, real tolerance, real after, real horizo
         }
         going = !found && is_complete(w, tolerance, horizon);
     }
-    // What is claimed when no more events come is claimed to the end of the ray.
+    // A region that claims when no more events come claims to the end of the ray.
     return found || (w->region != NONE && horizon == REAL_INFINITY);
 }
 
@@ -222,13 +223,13 @@ FN int advance(sweep* w, scene_tables s, real tolerance, real after, real horizo
 #define RAY_OVERFLOWS 2u
 #define RAY_GOES_ON 3u
 
-// About where the next event is complete, in the distances of the tile's list.
+// An estimate of the distance where the next event is complete, in the distances of the tile's list.
 FN float event_distance(const sweep* w, real tolerance, wide offset) {
     return w->next_event < REAL_INFINITY ? (float)((wide)(w->next_event + tolerance) - offset) : BOX_MISSED;
 }
 
-// `next`: the nodes of the ray's tile. What ends before `from` is not wanted, and what ends at `after` or before not
-// seen. `beyond`: see cover.
+// Returns the first region that is seen, in the sweep's state. `next`: the nodes of the ray's tile. Segments that end
+// before `from` are not wanted; partitions that end at `after` or before are not seen. `beyond`: see cover.
 FN u32 first_hit(GLOBAL const Frame* f, scene_tables s, GLOBAL const TileNode* next, ray3 r, real from, real after,
                  u32 beyond, sweep* w) {
     const real tolerance = tolerance_along(f, r);

@@ -1,5 +1,5 @@
-// What of a ray's partitions the answer to a list holds: those that a region claims, joined where one region goes on,
-// within the ray's range. Kernel 6 and the reference go over them with the same functions.
+// Rows: the partitions of a ray that the answer to a list holds. A region claims each row; neighbours of one region are
+// joined, and rows are cut at the ray's range. Kernel 6 and the reference go over them with the same functions.
 #ifndef CSGRT_BOOLEAN_ROWS_H
 #define CSGRT_BOOLEAN_ROWS_H
 
@@ -9,7 +9,7 @@
 typedef struct {
     GLOBAL const End* ends;
     GLOBAL const PartitionNode* nodes;
-    u32 node;       // of the next partition; NONE: no more
+    u32 node;       // of the next partition; NONE: the list ends
     u32 first_row;  // see Frame
     wide near, far;
 #ifdef CSGRT_EYE_RELATIVE
@@ -23,7 +23,7 @@ typedef struct {
     u32 region;
 } ray_row;
 
-// `ends`, `nodes`: the ray's own.
+// Begins a ray's rows. `ends`, `nodes`: the ray's own.
 FN ray_rows rows_of(GLOBAL const Frame* f, RayRecord record, GLOBAL const End* ends, GLOBAL const PartitionNode* nodes,
                     u32 segment_count) {
     ray_rows w;
@@ -49,7 +49,8 @@ FN wide row_distance(ray_rows w, real t) {
 #endif
 }
 
-// Cuts it. 0: the range holds nothing of it. A range that is one point holds what begins there, not what ends there.
+// Cuts a row at the ray's range. 0: the range holds nothing of the row. A range of one point holds the row that begins
+// there, not the row that ends there.
 FN int cut_row(ray_rows w, ray_row* row) {
     const wide in = row->in, out = row->out;
     if (in < w.near) {
@@ -63,7 +64,7 @@ FN int cut_row(ray_rows w, ray_row* row) {
     return w.near < w.far ? row->in < row->out : in <= w.near && w.near < out;
 }
 
-// The next row. 0: there is none.
+// Moves to the next row. 0: there is none.
 FN int next_row(ray_rows* w, ray_row* row) {
     while (w->node != NONE) {
         PartitionNode last = w->nodes[w->node];
@@ -92,7 +93,7 @@ FN int next_row(ray_rows* w, ray_row* row) {
     return 0;
 }
 
-// The next partition that several regions of the owner's rank claim; *node is its. 0: there is none.
+// Moves to the next partition that several regions of the owner's rank claim; *node is its node. 0: there is none.
 FN int next_overlap(ray_rows* w, ray_row* row, u32* node) {
     while (w->node != NONE) {
         const PartitionNode n = w->nodes[w->node];
@@ -106,8 +107,8 @@ FN int next_overlap(ray_rows* w, ray_row* row, u32* node) {
     return 0;
 }
 
-// The normal at one of a row's ends, outward from its region: where a solid ends that was removed from it, and where
-// one begins that takes what follows, the solid's own normal is turned around.
+// The normal at one boundary of a row, outward from its region. The solid's own normal is turned around where a removed
+// solid ends, and where a solid begins that takes what follows.
 FN vec3 row_normal(Geometry g, ray3 r, End end, u32 number, u32 is_out) {
     const vec3 n = normal_at(g, g.solids[end.solid], r, end.t, end.surface);
     return (number & 1u) == is_out ? n : make_vec3(-n.x, -n.y, -n.z);

@@ -1,11 +1,12 @@
-// The regions that claim what a deep ray is in, kept up to date from event to event.
+// Status tree: the regions that claim the current partition of a deep ray, kept up to date from event to event.
 //
-// A region's tree may be as deep as it is large, so a change of one leaf must not climb it. As in top trees (Alstrup et
-// al. 2005), the tree is cut into paths that go down to the larger operand. To each operator on a path, its other
-// operand is known or not, and what it makes of the path below is one of four functions of a bit: two bits. Functions
-// one below the other are one function, so a path is a balanced tree of compositions, whose root is the path's value.
-// That value makes the function of the operator that the path hangs on. Balanced by weight, the way from any leaf to
-// the region is a few times log2 of the leaves (src/compile/regions/status_tree.hpp).
+// A region's tree may be as deep as it is large, so a change of one leaf must not climb all of it. As in top trees
+// (Alstrup et al. 2005), the tree is cut into paths that go down to the larger operand. An operator on a path, together
+// with its other operand, makes a value of the value of the path below. This is one of four functions of a bit, stored
+// in two bits. The composition of such functions is again one of the four, so a path is a balanced tree of
+// compositions, whose root gives the path's value. This value sets the function of the operator that the path hangs on.
+// The trees are balanced by weight, so the way from any leaf to the region is a few times log2 of the leaves
+// (src/compile/regions/status_tree.hpp).
 //
 //   A - (B - (C + D))      path  -, -, +, D      functions  A - x,  B - x,  C + x,  D
 //
@@ -21,18 +22,18 @@
 // Functions of one bit: f(0) is bit 0, f(1) is bit 1.
 FN u32 composed(u32 upper, u32 lower) { return (upper >> (lower & 1u) & 1u) | (upper >> (lower >> 1) & 1u) << 1; }
 
-// What an operator makes of one operand where the other is false (low bits), and where it is true.
+// The function that an operator becomes where its other operand is false (low bits), and where it is true.
 #define RAKE_TABLE                                                                                            \
     (0xeu << 4 * RAKE_UNION | 0x8u << 4 * RAKE_COMMON | 0x4u << 4 * RAKE_MINUEND | 0x2u << 4 * RAKE_REMOVED | \
      0x6u << 4 * RAKE_XOR)
-// `f`: a whole path's, so it is constant.
+// The function of an operator whose other operand is a path. `f`: the whole path's function, which is constant.
 FN u32 raked(u32 rake, u32 f) { return rake == RAKE_NONE ? f : RAKE_TABLE >> (4 * rake + 2 * (f & 1u)) & 3u; }
 
-// Clusters' functions stand in `status`, 16 a word.
+// The function of a cluster in `status`, which has 16 a word.
 FN u32 function_of(GLOBAL const u32* status, u32 cluster) { return status[cluster >> 4] >> 2 * (cluster & 15u) & 3u; }
 
-// Changes the function of a leaf's cluster by the bits that are set in `change`, and those of all above it. Returns the
-// region whose value changes, or NONE.
+// Changes the function of a leaf's cluster by the bits that are set in `change`, and the functions of all clusters
+// above it. Returns the region whose value changes, or NONE.
 FN u32 change_leaf(GLOBAL u32* status, GLOBAL const u32* links, u32 cluster, u32 change) {
     u32 region = NONE;
     do {
@@ -51,7 +52,8 @@ FN u32 change_leaf(GLOBAL u32* status, GLOBAL const u32* links, u32 cluster, u32
 }
 
 // ---- A set of regions, from which the least is taken ----
-// A bit each; if that is more than a word, a bit for each word that is not 0; and so on, up to one word.
+// A region has a bit. If the set is larger than a word, a second level has a bit for each word that is not 0; and so
+// on, up to one word.
 FN u32 words_of_set(u32 regions) {
     u32 words = 0;
     do {
@@ -61,7 +63,7 @@ FN u32 words_of_set(u32 regions) {
     return words;
 }
 
-// Puts the region into the set, or takes it away.
+// Adds the region to the set, or removes it.
 FN void toggle(GLOBAL u32* set, u32 regions, u32 region) {
     u32 words = regions, goes_on;
     do {
@@ -74,7 +76,7 @@ FN void toggle(GLOBAL u32* set, u32 regions, u32 region) {
     } while (goes_on);
 }
 
-// The least member that is `from` or more; NONE: there is none.
+// The least member at or after `from`; NONE: there is none.
 FN u32 member_from(GLOBAL const u32* set, u32 regions, u32 from) {
     u32 words = (regions + 31u) >> 5, level = 0, bits = 0;
     if (from >> 5 < words) bits = set[from >> 5] & 0xffffffffu << (from & 31u);

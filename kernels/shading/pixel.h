@@ -1,4 +1,4 @@
-// From what a ray hits to the channels of its pixel.
+// Pixel: from the hit of a ray to the channels of its pixel.
 #ifndef CSGRT_SHADING_PIXEL_H
 #define CSGRT_SHADING_PIXEL_H
 
@@ -6,7 +6,7 @@
 #include "../geometry/solid.h"
 #include "plastic.h"
 
-// How regions look.
+// The regions' appearance.
 typedef struct {
     GLOBAL const MaterialRecord* materials;  // one a region
     GLOBAL const LightRecord* lights;
@@ -52,9 +52,9 @@ FN Pixel hit_pixel(sight s, ray3 r) {
     return p;
 }
 
-// Region `region` where the ray comes upon it at the end `seen`. If the region begins where another solid ends
-// (`from_within`), that solid's surface is seen from within: the normal is flipped. Only here is a normal computed:
-// one a ray. If a plane of the frame cuts the region open, the plane is what is seen, and no solid's surface.
+// The values of a pixel. The ray comes upon region `region` at the boundary `seen`. If the region begins where another
+// solid ends (`from_within`), that solid's surface is seen from within: the normal is flipped. Only here is a normal
+// computed: one a ray. If a plane of the frame cuts the region open, the plane is seen, and no solid's surface.
 FN Pixel seen_pixel(GLOBAL const Frame* f, GLOBAL const LightRecord* lights, MaterialRecord m, Geometry g, ray3 r,
                     view_range visible, End seen, u32 from_within, u32 region) {
     const real near = parameter_at(r, visible.near);
@@ -74,7 +74,7 @@ FN Pixel seen_pixel(GLOBAL const Frame* f, GLOBAL const LightRecord* lights, Mat
     return p;
 }
 
-// A display's byte for so much light; of no number, 0.
+// A display's byte for an amount of light; 0 if it is not a number.
 FN u32 byte_of_light(GLOBAL const DisplayBytes* display, float light) {
     u32 byte, part;
     if (!(light > 0)) return 0;
@@ -89,7 +89,7 @@ FN u32 display_word(GLOBAL const DisplayBytes* display, float r, float g, float 
            (alpha > 0 ? 0xff000000u : 0);
 }
 
-// Stores what a ray sees, channel by channel; `picture`: its place in the batch's first.
+// Stores the values of a pixel, channel by channel; `picture`: the pixel's position in the first channel.
 FN void put_pixel(GLOBAL const Frame* f, GLOBAL const DisplayBytes* display, GLOBAL float* picture, Pixel p) {
     const size_t size = channel_size(f);
     u32 i;

@@ -3,10 +3,10 @@
 //   colour * (ambient cos(n, eye))
 //   + sum over lights: colour * light * diffuse cos(n, l) + light * specular cos(r, eye)^shine
 //
-// A light that is infinitely far away comes from one direction; one with a beam lights what lies in its cone. What
-// shines itself adds colour * glow (SHAPED_LIGHTS).
+// A light that is infinitely far away comes from one direction; a light with a beam lights the points in its cone. A
+// surface that shines itself adds colour * glow (SHAPED_LIGHTS).
 //
-// The power is by squaring: multiplications only, so every device gives the same bits.
+// The power is computed by squaring: multiplications only, so every device gives the same bits.
 #ifndef CSGRT_SHADING_PLASTIC_H
 #define CSGRT_SHADING_PLASTIC_H
 
@@ -72,14 +72,14 @@ FN rgb plastic(GLOBAL const Frame* f, GLOBAL const LightRecord* lights, finish m
     return c;
 }
 
-// What is seen of a surface with the outward unit normal n that is hit at t.
+// The visible values of a surface with the outward unit normal n that is hit at t.
 typedef struct {
     real t;
     vec3 n;
     rgb color;
 } sight;
 
-// Inside already (t < t_min): the hit is the eye itself, seen face on.
+// Shades a hit. If the ray starts inside (t < t_min), the hit is the eye itself, seen face on.
 FN sight shade_plastic(GLOBAL const Frame* f, GLOBAL const LightRecord* lights, finish m, ray3 r, real t, vec3 n,
                        real t_min) {
     const lane_mask inside = t < t_min;

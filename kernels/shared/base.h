@@ -1,16 +1,16 @@
 // The language that both compilers accept: OpenCL C 1.2 on a device, C++ on the host.
 //
 // Everything under kernels/ is written in the subset of the two: plain structs of scalars, arguments by value,
-// fixed-width integers. Nothing here may round differently on two devices, so: no contraction (the pragma here,
-// -ffp-contract=off on the host), fma only where written, and only + - * / sqrt fma floor and
-// scaling by powers of 2, which IEEE 754 fixes to the bit.
-// Transcendental functions are not bit-equal between devices and stay out.
-// Never put two calls with side effects into one argument list: compilers evaluate them in different orders.
+// fixed-width integers. Nothing here may round differently on two devices. So there is no contraction (the pragma here,
+// -ffp-contract=off on the host), fma stands only where it is written, and the only operations are + - * / sqrt fma
+// floor and scaling by powers of 2, which IEEE 754 fixes to the bit. Transcendental functions are not bit-equal between
+// devices and stay out. Never put two calls with side effects into one argument list: compilers evaluate them in
+// different orders.
 #ifndef CSGRT_SHARED_BASE_H
 #define CSGRT_SHARED_BASE_H
 
 #ifdef __OPENCL_VERSION__
-#ifdef CSGRT_CONTRACT  // to see what it costs: results then differ between devices
+#ifdef CSGRT_CONTRACT  // a test of what contraction costs: results then differ between devices
 #pragma OPENCL FP_CONTRACT ON
 #else
 #pragma OPENCL FP_CONTRACT OFF
@@ -29,7 +29,7 @@ typedef real wide;
 #endif
 typedef uint u32;
 #define GLOBAL __global
-// Where a ray's ends are: in global memory, or, in programs for first hits, in private memory.
+// The memory that holds a ray's boundaries: global, or, in programs for first hits, private.
 #ifdef CSGRT_PRIVATE_ENDS
 #define ENDS __private
 #else
@@ -41,7 +41,7 @@ typedef uint u32;
 #define FN static
 #endif
 // A function whose call takes longer than its work.
-#ifdef CSGRT_NO_INLINE  // for a simulator that does not know all instructions that inlining leaves
+#ifdef CSGRT_NO_INLINE  // for a simulator that does not know all instructions that inlining makes
 #define INLINE_FN FN
 #else
 #define INLINE_FN FN inline __attribute__((always_inline))
@@ -55,7 +55,7 @@ typedef uint u32;
 #endif
 // Large rare code, which would take a GPU's registers from all other code if it were inlined.
 #define NOINLINE_FN FN __attribute__((noinline))
-// A function that inlines all that it calls, where that pays. A compiler for a device does so in any case.
+// A function that inlines all functions that it calls, where this pays. A compiler for a device does so in any case.
 #define WHOLE_FN FN
 #define REAL_INFINITY ((real)INFINITY)
 FN real real_sqrt(real x) { return sqrt(x); }
@@ -83,13 +83,13 @@ FN real real_scaled(real x, int e) { return host::scaled(x, e); }
 FN u32 clz(u32 x) { return (u32)__builtin_clz(x); }  // x > 0
 #endif
 
-// Types whose names packets give to vectors, to compile the same source once more (packet/begin.h). Here they are one
-// ray's.
+// Types that packets redefine as vectors, to compile the same source once more (packet/begin.h). Here they hold one
+// ray's values.
 typedef float single;
-typedef int lane_mask;         // what two reals compared give: 1 or 0; -1 or 0 in each lane of a vector
-typedef int single_lane_mask;  // the same of two singles
+typedef int lane_mask;         // the result of a comparison of two reals: 1 or 0; -1 or 0 in each lane of a vector
+typedef int single_lane_mask;  // the result of a comparison of two singles
 typedef u32 tag;               // a count or a surface
-// A number of a solid, which is the same for all rays, also in a packet.
+// A number of a solid. It is the same for all rays, also in a packet.
 typedef real parameter;
 FN int no_lane(lane_mask x) { return !x; }
 FN single to_single(real x) { return (float)x; }
@@ -97,20 +97,20 @@ FN single to_single(real x) { return (float)x; }
 #define REAL(x) ((real)(x))
 #define SINGLE(x) ((single)(x))
 #define TAG(x) ((tag)(x))
-// A limit that depends on how many bits a number has: 24, 53 or 113. `parameter` has as many as `real`, which may be
-// a vector.
+// A limit that depends on how many bits a number has: 24, 53 or 113. `parameter` has as many bits as `real`, which may
+// be a vector.
 #define BY_PRECISION(single, twofold, quadruple) \
     (sizeof(parameter) == 4 ? REAL(single) : sizeof(parameter) == 8 ? REAL(twofold) : REAL(quadruple))
 
-// By how much rounding of a point's, a direction's or a surface's own numbers may change a product of two of them, in
-// units of their sizes: some roundings of each. In 113 bits as in double, whose numbers they are.
+// The relative error of a product of two numbers of a point, a direction or a surface: some roundings of each. It is
+// the same in 113 bits as in double, since the numbers come in double.
 #define ROUNDING BY_PRECISION(0x1p-21, 0x1p-50, 0x1p-50)
 
 // The number of the lowest bit that is set; bits > 0.
 FN u32 lowest(u32 bits) { return 31u - clz(bits & (0u - bits)); }
 
-// A GPU has fmin as one instruction. A processor has the comparison alone: fmin, which ignores NaNs, takes it several
-// instructions.
+// The smaller of two floats. A GPU has fmin as one instruction. A processor has only the comparison: fmin, which
+// ignores NaNs, takes several instructions there.
 #if defined(__OPENCL_VERSION__) && !defined(CSGRT_PACKETS)
 FN float single_min(float a, float b) { return fmin(a, b); }
 FN float single_max(float a, float b) { return fmax(a, b); }

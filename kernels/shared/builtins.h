@@ -1,6 +1,7 @@
-// The functions of OpenCL C that kernels use, for a compiler that is kept from reading its own declarations of them
-// all (src/device/program.cpp). They are as Khronos's specification has them: a function that depends on its
-// arguments alone is const, one that all work-items of a group must reach together is convergent.
+// The functions of OpenCL C that kernels use. A compiler that is kept from reading its own declarations of all
+// functions (src/device/program.cpp) reads these. The attributes are as Khronos's specification has them: a function
+// whose result depends on its arguments alone is const; a function that all work-items of a group must reach together
+// is convergent.
 #ifndef CSGRT_SHARED_BUILTINS_H
 #define CSGRT_SHARED_BUILTINS_H
 

@@ -1,4 +1,4 @@
-// Does what a batch's rays need fit the buffers? On a GPU the host queues the kernels before it knows how much the rays
+// Capacity: do a batch's rays fit the buffers? On a GPU the host queues the kernels before it knows how much the rays
 // need, and states the buffers' capacity in the frame. If the capacity is too small, a kernel writes nothing. The host
 // sees this in the batch's report and runs the batch again with exact sizes. Where the host counts first, as on
 // processors, the capacity is COUNT_MAX.
@@ -7,7 +7,7 @@
 
 #include "layout.h"
 
-// How many candidates `places`, the sums over the rays' counts, has; none if there is no memory for all of them.
+// Returns how many candidates `places`, the sums over the rays' counts, has; 0 if there is no memory for all of them.
 FN u32 candidates_of(GLOBAL const Frame* f, GLOBAL const CandidateCount* places) {
     const u32 count = places[f->ray_count].candidates;
     return count <= f->candidate_capacity ? count : 0;
@@ -22,13 +22,13 @@ FN u32 segments_of(GLOBAL const Frame* f, GLOBAL const RayCount* offsets) {
     return segments_fit(f, offsets) ? offsets[f->ray_count].segments : 0;
 }
 
-// A ray of more segments than this is deep: its ends are sorted by merging, and its partitions evaluated one after the
-// other, by what changes from one to the next (3_deep_rays.cl). On processors that pays from 40 segments on; but a GPU
-// runs a batch again that has a deep ray, and havoc's rays have up to 70.
+// Deep rays have more segments than this number. A deep ray's boundaries are sorted by merging. Its partitions are
+// evaluated one after the other, by what changes from one to the next (3_deep_rays.cl). On processors this pays from 40
+// segments on. But a GPU runs a batch with a deep ray again, and havoc's rays have up to 70 segments.
 #ifndef DEEP_SEGMENTS
 #define DEEP_SEGMENTS 96u
 #endif
-// Words of bit arrays in counts that are to tell that there is a deep ray: no buffer holds as many.
+// Words of bit arrays that are counted to show that there is a deep ray: no buffer holds as many.
 #define DEEP_WORDS 0x80000000u
 
 #endif

@@ -1,9 +1,9 @@
-// Rays against boxes of a bounding volume hierarchy, in float.
+// Slabs: rays against boxes of a bounding volume hierarchy, in float.
 //
-// The slab test may enter a box that the ray misses, never the reverse: the origin is moved to the ray's closest
-// approach to the hierarchy's center, so |p| <= radius; then the errors of p, 1/d and the products amount to less
-// than radius * 2^-21 of displacement an axis, and boxes are padded by radius * 2^-20 when they are built. In single
-// precision boxes grow with the distance of the ray's origin: there a solid may be met where it is not.
+// The slab test may enter a box that the ray misses, never the reverse. The origin is moved to the ray's closest
+// approach to the hierarchy's center, so |p| <= radius. Then the errors of p, 1/d and the products amount to less than
+// radius * 2^-21 of displacement an axis, and boxes are padded by radius * 2^-20 when they are built. In single
+// precision boxes grow with the distance of the ray's origin: there a ray may meet a solid a little beside it.
 #ifndef CSGRT_SHARED_SLAB_H
 #define CSGRT_SHARED_SLAB_H
 
@@ -13,24 +13,24 @@ typedef struct {
     single px, py, pz;      // a point of the ray, relative to the center
     single ix, iy, iz;      // 1 / direction, or MOST_INVERSE
     single t_min;           // in the hierarchy's own parameter
-    single pad;             // single precision: by which boxes grow
-    lane_mask hits_sphere;  // 0: nothing can be hit
+    single pad;             // single precision: how much boxes grow
+    lane_mask hits_sphere;  // 0: the ray can hit nothing
     real shift, length;     // the hierarchy's parameter is length * t - shift
 } slab_ray;
 
 #define SLAB_REACH BY_PRECISION(1.001, 1.0000001, 1.0000001)
 #define SLAB_SLACK BY_PRECISION(0x1p-10, 0x1p-20, 0x1p-20)  // covers the rounding of t_min to float
 
-// So large that a ray which runs along a slab never leaves it within the sphere, and no infinity, which times 0 is no
-// number.
+// The largest inverse: so large that a ray which runs along a slab never leaves it within the sphere. Infinity times 0
+// would be no number.
 #define MOST_INVERSE 1e30f
 FN single inverse(single x) {
     const single i = SINGLE(1) / x;
     return i < SINGLE(-MOST_INVERSE) ? SINGLE(-MOST_INVERSE) : i > SINGLE(MOST_INVERSE) ? SINGLE(MOST_INVERSE) : i;
 }
 
-// `o`: the ray's origin relative to the center, around which all boxes lie within `radius`. What ends before t_min is
-// not wanted.
+// Makes a slab_ray. `o`: the ray's origin relative to the center, around which all boxes lie within `radius`. Segments
+// that end before t_min are not wanted.
 FN slab_ray make_slab_ray(offset3 o, vec3 direction, real radius, real t_min) {
     slab_ray s;
     real length = real_sqrt(dot3(direction, direction));
@@ -58,8 +58,8 @@ FN single grown(float x, single pad) { return sizeof(real) == 4 ? x + pad : SING
 
 #define BOX_MISSED 3.0e38f
 
-// Where the ray enters the box, or before that, in the hierarchy's parameter; it misses the box if that is behind
-// `out`. A ray along a padded face, which is outside the true box, may be told either.
+// Returns where the ray enters the box, or an earlier distance, in the hierarchy's parameter. The ray misses the box if
+// the result is behind `out`. A ray along a padded face, which is outside the true box, may get either answer.
 FN single box_passage(slab_ray s, BvhNode node, single* out) {
     const single x0 = (grown(node.low[0], -s.pad) - s.px) * s.ix, x1 = (grown(node.high[0], s.pad) - s.px) * s.ix;
     const single y0 = (grown(node.low[1], -s.pad) - s.py) * s.iy, y1 = (grown(node.high[1], s.pad) - s.py) * s.iy;
@@ -74,8 +74,8 @@ FN single_lane_mask box_is_hit(slab_ray s, BvhNode node) {
     return in <= out;
 }
 
-// Where what is wanted ends that begins at t_max or before, in the hierarchy's parameter; and the boxes that are
-// entered before it.
+// Returns where a range that ends at t_max ends in the hierarchy's parameter: boxes that the ray enters later are not
+// wanted.
 FN single end_of_range(slab_ray s, real radius, real t_max) {
     return to_single(real_min(t_max * s.length - s.shift, REAL(4) * radius) + radius * SLAB_SLACK);
 }
@@ -85,15 +85,15 @@ FN single_lane_mask box_is_hit_before(slab_ray s, BvhNode node, single end) {
     return in <= out && in <= end;
 }
 
-// BOX_MISSED: the ray does not enter it.
+// Returns where the ray enters the box; BOX_MISSED: it does not.
 FN single box_entry(slab_ray s, BvhNode node) {
     single out;
     const single in = box_passage(s, node, &out);
     return in <= out ? in : SINGLE(BOX_MISSED);
 }
 
-// A distance along the ray that nothing in a box comes before which is entered at `at`. The box's padding covers the
-// rounding of its own test, not that of a far origin's distance.
+// A distance along the ray before which nothing in a box begins that is entered at `at`. The box's padding covers the
+// rounding of its own test, but not the rounding of a far origin's distance.
 FN real distance_before(slab_ray s, float at) {
     return (REAL(at) + s.shift - real_abs(s.shift) * BY_PRECISION(0x1p-20, 0x1p-49, 0x1p-100)) / s.length;
 }

@@ -1,4 +1,5 @@
-// Points, and sums and products with what their rounding lost. Compiled for one ray and for packets (packet/begin.h).
+// Vectors: points, and sums and products with their rounding errors. The file is compiled for one ray and for packets
+// (packet/begin.h).
 #ifndef CSGRT_SHARED_VECTORS_H
 #define CSGRT_SHARED_VECTORS_H
 
@@ -24,7 +25,7 @@ FN vec3 add_scaled(vec3 a, real s, vec3 b) {
 FN real dot3(vec3 a, vec3 b) { return real_fma(a.z, b.z, real_fma(a.y, b.y, a.x * b.x)); }
 FN real sum_of_sizes(vec3 v) { return real_abs(v.x) + real_abs(v.y) + real_abs(v.z); }
 FN vec3 normalize3(vec3 a) { return scale(a, REAL(1) / real_sqrt(dot3(a, a))); }
-// The same where n has a direction, else against d.
+// The unit vector of n; if n has no direction, the one against d.
 FN vec3 unit_or_against(vec3 n, vec3 d) {
     const real length2 = dot3(n, n);
     const lane_mask has_direction = length2 > 0 && length2 < REAL_INFINITY;
@@ -34,7 +35,7 @@ FN vec3 unit_or_against(vec3 n, vec3 d) {
     return normalize3(n);
 }
 
-// A sum or product and what its rounding lost: hi + lo is exact (Knuth 1969; Dekker 1971, with fma).
+// A sum or product and its rounding error: hi + lo is exact (Knuth 1969; Dekker 1971, with fma).
 typedef struct {
     real hi, lo;
 } pair;
@@ -54,8 +55,8 @@ FN pair two_product(real a, real b) {
     return r;
 }
 
-// Coordinates of the world are `wide`, lengths within a solid `real`. The two are one type, but for eye-relative single
-// precision (CSGRT_EYE_RELATIVE): there the world is in double, a ray's origin is brought near the scene in double, the
+// Coordinates of the world are `wide`, lengths within a solid `real`. Both are one type, except in eye-relative single
+// precision (CSGRT_EYE_RELATIVE). There the world is in double: a ray's origin is brought near the scene in double, the
 // solid's center is subtracted in double, and the difference is rounded to float.
 #ifdef CSGRT_EYE_RELATIVE
 typedef struct {
@@ -86,7 +87,7 @@ FN wide3 wide_add_scaled(wide3 a, wide s, wide3 b) {
 FN wide wide_dot(wide3 a, wide3 b) { return wide_fma(a.z, b.z, wide_fma(a.y, b.y, a.x * b.x)); }
 FN wide3 widen(vec3 v) { return make_wide3((wide)v.x, (wide)v.y, (wide)v.z); }
 FN vec3 narrow(wide3 v) { return make_vec3(REAL(v.x), REAL(v.y), REAL(v.z)); }
-// a - b, with what its rounding to `real` lost.
+// a - b, with the error of its rounding to `real`.
 FN pair difference(wide a, wide b) {
     wide all = a - b;
     pair r;
@@ -133,18 +134,18 @@ FN vec3 moved(offset3 o, real shift, vec3 d) {
     return make_vec3(moved_by(o.x, shift, d.x), moved_by(o.y, shift, d.y), moved_by(o.z, shift, d.z));
 }
 
-// As the world has it.
+// A ray in the world.
 typedef struct {
     wide3 o, d;
 } world_ray;
 
-// As the geometry takes it.
+// A ray as the geometry takes it.
 typedef struct {
     wide3 o;  // origin
     vec3 d;   // direction; it need not be a unit vector, distances are in units of it
 #ifdef CSGRT_EYE_RELATIVE
     wide start;    // how far the origin was moved along the ray, in millimetres; d is a unit vector
-    wide3 center;  // of the solid that is looked at
+    wide3 center;  // of the solid that the ray is tested against
 #endif
 } ray3;
 

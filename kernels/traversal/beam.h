@@ -1,8 +1,9 @@
-// A tile's rays as one: the ray through its middle, so thick that it holds them all within the scene's sphere.
+// Beam: a tile's rays as one, the ray through the tile's middle, so thick that it holds them all within the scene's
+// sphere.
 //
-// A point of one of them and the point of the middle ray that is as far from the eye (parallel rays: from the picture
-// plane) are apart by the beam's `spread` at most. So where the middle ray enters a box that is larger by that much,
-// no ray of the tile has entered the box itself yet.
+// Take a point of one of the rays, and the point of the middle ray at the same distance from the eye (parallel rays:
+// from the picture plane). They are apart by the beam's `spread` at most. So where the middle ray enters a box that is
+// larger by the spread, no ray of the tile has entered the box itself yet.
 #ifndef CSGRT_TRAVERSAL_BEAM_H
 #define CSGRT_TRAVERSAL_BEAM_H
 
@@ -11,12 +12,12 @@
 
 typedef struct {
     slab_ray slabs;
-    float pad;   // by which boxes grow
-    wide start;  // of the middle ray's own parameter, from the eye
+    float pad;   // how much boxes grow
+    wide start;  // of the middle ray's parameter, from the eye
     wide to_center;
 } beam;
 
-// How far the scene's center is: from the eye, or from the picture plane.
+// The distance of the scene's center from the eye, or from the picture plane.
 FN wide distance_of_center(GLOBAL const Frame* f) {
     wide3 to = wide_subtract(frame_center(f), make_wide3(f->eye[0], f->eye[1], f->eye[2]));
     return f->perspective ? wide_sqrt(wide_dot(to, to)) : wide_dot(to, make_wide3(f->w[0], f->w[1], f->w[2]));
@@ -49,7 +50,7 @@ FN GLOBAL const TileNode* list_of(GLOBAL const Frame* f, GLOBAL const TileNode* 
     return lists + (size_t)((number - f->first_ray) / (TILE * TILE)) * LISTED_NODES;
 }
 
-// Where the middle ray enters the larger box; BOX_MISSED: no ray of the beam enters the box.
+// Returns where the middle ray enters the larger box; BOX_MISSED: no ray of the beam enters the box.
 FN float beam_entry(beam b, BvhNode node) {
     u32 k;
     for (k = 0; k < 3; ++k) {
@@ -66,13 +67,13 @@ FN TileNode entry_of(beam b, GLOBAL const BvhNode* nodes, u32 node) {
     return e;
 }
 
-// A box that is entered before t_min may hold a segment that begins even earlier.
+// The distance for the list. A box that is entered before t_min may hold a segment that begins even earlier.
 FN float entry_from_center(beam b, float at) {
     if (at <= b.slabs.t_min) return -BOX_MISSED;
     return (float)(b.start + (wide)distance_before(b.slabs, at) - b.to_center) - b.pad;
 }
 
-// What is added to that for the parameter of one of the beam's rays.
+// The difference between the list's distances and the parameter of one of the beam's rays.
 FN wide offset_along(GLOBAL const Frame* f, ray3 r) { return distance_of_center(f) - (wide)distance_along(r, 0); }
 
 #endif

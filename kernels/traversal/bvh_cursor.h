@@ -1,7 +1,9 @@
-// The walk through a bounding volume hierarchy: of the scene's solids, of a mesh's triangles, or of a sketch's lines.
+// BVH cursor: the walk through a bounding volume hierarchy, of the scene's solids, of a mesh's triangles, or of a
+// sketch's lines.
 //
-// Nodes stand in depth-first order and know where to go on when their box is missed, so a walk needs no stack: a
-// cursor is the next node, and the end. What a box is tested with is the caller's: a ray, a packet, a beam, a line.
+// Nodes stand in depth-first order and know the next node when their box is missed, so a walk needs no stack. A cursor
+// is the next node, and the number after the last node. The caller tests the boxes: with a ray, a packet, a beam or a
+// line.
 #ifndef CSGRT_TRAVERSAL_BVH_CURSOR_H
 #define CSGRT_TRAVERSAL_BVH_CURSOR_H
 
@@ -11,7 +13,7 @@ typedef struct {
     u32 node, end;
 } bvh_cursor;
 
-// Over all of a hierarchy of `count` nodes; 0: over nothing.
+// A cursor over all of a hierarchy of `count` nodes; 0: over nothing.
 FN bvh_cursor bvh_over(u32 count) {
     bvh_cursor c;
     c.node = 0;
@@ -19,7 +21,7 @@ FN bvh_cursor bvh_over(u32 count) {
     return c;
 }
 
-// Over a node and all below it.
+// A cursor over a node and all nodes below it.
 FN bvh_cursor bvh_below(GLOBAL const BvhNode* nodes, u32 node) {
     bvh_cursor c;
     c.node = node;
@@ -29,11 +31,11 @@ FN bvh_cursor bvh_below(GLOBAL const BvhNode* nodes, u32 node) {
 
 FN int bvh_goes_on(bvh_cursor c) { return c.node < c.end; }
 
-// Steps on from `node`, where the cursor is: to its first child if its box is hit, else past all below it. Returns
-// the leaf, as BvhNode has it, if that is what is hit; else 0.
+// Steps on from `node`, where the cursor is: to its first child if its box is hit, else past all below it. Returns the
+// leaf, as BvhNode has it, if a leaf is hit; else 0.
 //
-// Written as branches: a processor guesses the way and loads the next node before the box's test is done. Where the
-// next node is chosen with ?: it waits, and first hits of scenes/meshes.json take 1.45 times as long.
+// The steps are branches: a processor predicts the way and loads the next node before the box's test is done. With ?:
+// it waits, and first hits of scenes/meshes.json take 1.45 times as long.
 FN u32 bvh_step(bvh_cursor* c, BvhNode node, int hit) {
     if (hit && !node.leaf) {
         ++c->node;

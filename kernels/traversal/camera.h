@@ -1,5 +1,5 @@
-// From a ray's number to the ray. Rays of a picture are numbered in tiles of 8 x 8 pixels of its screen, row by row
-// from the top left.
+// Camera: from a ray's number to the ray. Rays of a picture are numbered in tiles of 8 x 8 pixels of its screen, row by
+// row from the top left.
 #ifndef CSGRT_TRAVERSAL_CAMERA_H
 #define CSGRT_TRAVERSAL_CAMERA_H
 
@@ -19,19 +19,19 @@ FN pixel_position pixel_of(u32 ray, ScreenBounds w) {
     return p;
 }
 
-// A pixel's place in a row-major picture of the screen's whole rows, from the top of a batch's first tile on.
+// A pixel's index in a row-major picture of the screen's whole rows, from the top of a batch's first tile on.
 FN size_t row_major_place(ScreenBounds w, u32 first_ray, pixel_position at) {
     const u32 top = w.top + first_ray / (TILE * TILE) / tiles_across(w) * TILE;
     return (size_t)(at.y - top) * width_of(w) + (at.x - w.left);
 }
 
-// Where a ray's pixel stands in a channel of the batch's picture, and how many floats a channel has.
+// The index of a ray's pixel in a channel of the batch's picture, and how many floats a channel has.
 FN size_t place_of(GLOBAL const Frame* f, pixel_position at, u32 id) {
     return f->rows ? row_major_place(f->screen, f->first_ray, at) : id;
 }
 FN size_t channel_size(GLOBAL const Frame* f) { return f->rows ? (size_t)f->rows * width_of(f->screen) : f->ray_count; }
 
-// Marks the ray's tile, for the host, as one that shows something. Rays may do so at the same time: all store the
+// Marks the ray's tile, for the host, as a tile that shows something. Rays may do so at the same time: all store the
 // same value.
 FN void mark_shown(GLOBAL const Frame* f, GLOBAL BatchReport* report, u32 number) {
     if (f->rows) ((GLOBAL unsigned char*)(report + 1))[(number - f->first_ray) / (TILE * TILE)] = 1;
@@ -42,8 +42,8 @@ FN world_ray camera_ray(GLOBAL const Frame* f, pixel_position at) { return view_
 FN wide3 frame_center(GLOBAL const Frame* f) { return make_wide3(f->center[0], f->center[1], f->center[2]); }
 
 #ifdef CSGRT_EYE_RELATIVE
-// The direction becomes a unit vector; an origin outside the sphere around the scene is moved to its closest approach
-// to the center. So distances along the ray are small where there is anything.
+// Makes the ray for the geometry. The direction becomes a unit vector; an origin outside the sphere around the scene is
+// moved to its closest approach to the center. So distances along the ray are small wherever there is a solid.
 FN ray3 geometry_ray(GLOBAL const Frame* f, world_ray w) {
     ray3 r;
     wide3 from = wide_subtract(w.o, frame_center(f));
@@ -60,7 +60,7 @@ FN ray3 geometry_ray(GLOBAL const Frame* f, world_ray w) {
 }
 FN real t_min_along(GLOBAL const Frame* f, ray3 r) { return REAL(f->t_min - r.start); }
 FN real parameter_at(ray3 r, wide distance) { return REAL(distance - r.start); }
-FN wide distance_along(ray3 r, real t) { return r.start + (wide)t; }  // from where the ray begins
+FN wide distance_along(ray3 r, real t) { return r.start + (wide)t; }  // from the ray's own origin
 #else
 FN ray3 geometry_ray(GLOBAL const Frame* f, world_ray w) {
     ray3 r;
@@ -83,13 +83,13 @@ FN real distance_along(ray3 r, real t) {
 }
 #endif
 
-// What of a ray is wanted: segments that end before t_min or begin behind t_max are not.
+// The wanted range of a ray: segments that end before t_min or begin behind t_max are left out.
 typedef struct {
     real t_min, t_max;
 } ray_range;
 
-// A box that lies outside this range has no segment that is wanted. A ray that grazes a plate is in it far before and
-// behind its box.
+// The range for boxes: a box that lies outside it has no wanted segment. A ray that grazes a plate is in it far before
+// and behind its box.
 FN ray_range range_of_boxes(GLOBAL const Frame* f, ray_range wanted) {
     wanted.t_min = f->whole_lines ? -REAL_INFINITY : wanted.t_min;
     wanted.t_max = f->whole_lines ? REAL_INFINITY : wanted.t_max;
@@ -105,7 +105,7 @@ FN world_ray listed_ray(RayRecord record) {
     return w;
 }
 
-// The length of a listed ray's direction, in units of which its distances are; 1 where geometry_ray keeps the length.
+// The unit of a listed ray's distances: the length of its direction; 1 where geometry_ray keeps the length.
 FN wide unit_of(world_ray w) {
 #ifdef CSGRT_EYE_RELATIVE
     const wide largest = largest_of(w.d);
@@ -117,8 +117,8 @@ FN wide unit_of(world_ray w) {
 #endif
 }
 
-// A listed ray's range, wider by the tolerance at least, so that ends near its bounds become one event with those that
-// they are one with on the whole line.
+// A listed ray's range, wider by at least the tolerance. So boundaries near its limits join the same events as on the
+// whole line.
 FN ray_range range_of(GLOBAL const Frame* f, RayRecord record, ray3 r) {
     ray_range wanted;
 #ifdef CSGRT_EYE_RELATIVE
@@ -140,7 +140,7 @@ FN u32 number_of(GLOBAL const Frame* f, GLOBAL const u32* listed, u32 id) {
     return f->work == WORK_PIXELS ? listed[id] : listed[id / (TILE * TILE)] * (TILE * TILE) + id % (TILE * TILE);
 }
 
-// The ray of a number: of a list, or through a pixel. 0: there is no such ray.
+// Makes the ray of a number: of a list, or through a pixel. 0: there is no such ray.
 FN int ray_of(GLOBAL const Frame* f, GLOBAL const RayRecord* rays, u32 number, ray3* r, ray_range* wanted) {
     if (f->work == WORK_RAYS) {
         const RayRecord record = rays[number];
@@ -157,7 +157,7 @@ FN int ray_of(GLOBAL const Frame* f, GLOBAL const RayRecord* rays, u32 number, r
     }
 }
 
-// The frame's tolerance in units of the ray's own direction, which a listed ray brings in any length.
+// The frame's tolerance in units of the ray's own direction: a listed ray's direction may have any length.
 FN real tolerance_along(GLOBAL const Frame* f, ray3 r) {
 #ifdef CSGRT_EYE_RELATIVE
     (void)r;
@@ -166,7 +166,7 @@ FN real tolerance_along(GLOBAL const Frame* f, ray3 r) {
     vec3 d = r.d;
     real longest = real_max(real_abs(d.x), real_max(real_abs(d.y), real_abs(d.z)));
     if (f->work != WORK_RAYS) return f->tolerance;
-    d = scale(d, REAL(1) / longest);  // the squares of 1e-200 and of 1e200 are no numbers
+    d = scale(d, REAL(1) / longest);  // the squares of 1e-200 and of 1e200 would under- and overflow
     return f->tolerance / (longest * real_sqrt(dot3(d, d)));
 #endif
 }

@@ -1,4 +1,4 @@
-// The walk through the bounding volume hierarchy that finds a ray's candidates: the solids that it may meet.
+// Candidates: the walk through the bounding volume hierarchy that finds the solids that a ray may meet.
 //
 // Solids are numbered in the order of the leaves, so a ray's candidates, and later its segments, come out sorted by
 // solid. Every segment along the ray is wanted, so the order of distance does not matter here.
@@ -8,7 +8,7 @@
 #include "bvh_cursor.h"
 #include "camera.h"
 
-// As next_leaf, of the leaves that are entered before `end`.
+// Steps past the next leaf that the ray enters before `end`, as next_leaf does.
 FN u32 next_leaf_before(slab_ray s, single end, GLOBAL const BvhNode* nodes, bvh_cursor* c) {
     u32 leaf = 0;
     while (!leaf && bvh_goes_on(*c)) {
@@ -18,8 +18,8 @@ FN u32 next_leaf_before(slab_ray s, single end, GLOBAL const BvhNode* nodes, bvh
     return leaf;
 }
 
-// Returns how many candidates the ray has; stores them from `candidates` on unless that is 0. `next`: the nodes that
-// the ray's tile meets, as they stand in the hierarchy; 0: there is no such list.
+// Returns how many candidates the ray has; stores them from `candidates` on unless it is 0. `next`: the nodes that the
+// ray's tile meets, in the hierarchy's order; 0: there is no such list.
 FN u32 walk(GLOBAL const Frame* f, GLOBAL const BvhNode* nodes, GLOBAL const TileNode* next, ray3 r, ray_range wanted,
             u32 ray, GLOBAL Candidate* candidates) {
     const ray_range within = range_of_boxes(f, wanted);

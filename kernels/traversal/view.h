@@ -1,10 +1,10 @@
-// The ray through the middle of a pixel.
+// View: the ray through the middle of a pixel, and its visible range.
 #ifndef CSGRT_TRAVERSAL_VIEW_H
 #define CSGRT_TRAVERSAL_VIEW_H
 
 #include "../shared/layout.h"
 
-// Column and row from the top left.
+// The ray of a column and a row, from the top left.
 FN world_ray view_ray(GLOBAL const Frame* f, wide column, wide row) {
     world_ray r;
     wide x = column + (wide)f->first_x;
@@ -24,13 +24,13 @@ FN world_ray view_ray(GLOBAL const Frame* f, wide column, wide row) {
     return r;
 }
 
-// Which part of a picture's ray is seen, by distance. A plane of the view is an end as those of solids are: what is
-// nearer to it than the tolerance is at the plane.
+// The visible range of a picture's ray, by distance. A plane of the view is a boundary as the solids' are: a surface
+// that is nearer to the plane than the tolerance counts as at the plane.
 typedef struct {
-    wide from;           // segments that end before this are not wanted
-    wide near;           // where the ray begins to be seen
-    wide after;          // partitions that end there or before are not seen,
-    wide before;         // nor those that begin there or behind
+    wide from;           // segments that end before it are not wanted
+    wide near;           // the nearest visible distance
+    wide after;          // partitions that end here or before are not seen,
+    wide before;         // nor partitions that begin here or behind
     tag plane;           // which of the frame's planes cuts the ray at `near`, or NO_PLANE
     lane_mask in_plane;  // the ray runs in some plane (geometry/beyond.h)
 } view_range;
@@ -38,7 +38,7 @@ typedef struct {
 
 FN wide sum_of_wide_sizes(wide3 v) { return wide_abs(v.x) + wide_abs(v.y) + wide_abs(v.z); }
 
-// Planes cut as half-spaces do (clip() of geometry/plane.h), at the same distances.
+// The range between the planes. They cut as half-spaces do (clip() of geometry/plane.h), at the same distances.
 FN view_range range_in_view(GLOBAL const Frame* f, world_ray r) {
     view_range visible;
     wide far = (wide)REAL_INFINITY, slack;
