@@ -1,10 +1,9 @@
-// Solids that are affine images of a canonical shape: parameters begin with center[3] and the rows of L (9 reals),
-// local = L (p - center).
+// Affine: solids that are affine images of a canonical shape. Their parameters begin with center[3] and the rows of L
+// (9 reals), local = L (p - center).
 //
 // The ray's origin is first moved to its closest approach to the center (in the solid's own metric), because
 // coefficients formed from a far origin lose their digits. The moved origin w = (o - center) + shift * d is computed
-// with the rounding errors of its two large terms kept, so it is good to a few ulps of |w|,
-// however far the ray starts.
+// with the rounding errors of its two large terms kept. So it is good to a few ulps of |w|, however far the ray starts.
 #ifndef CSGRT_GEOMETRY_AFFINE_H
 #define CSGRT_GEOMETRY_AFFINE_H
 
@@ -19,7 +18,7 @@ FN vec3 affine_linear(GLOBAL const parameter* p, vec3 v) {
     return make_vec3(dot3(make_vec3(p[3], p[4], p[5]), v), dot3(make_vec3(p[6], p[7], p[8]), v),
                      dot3(make_vec3(p[9], p[10], p[11]), v));
 }
-// A normal goes back by the transpose of L.
+// A normal in the world's directions, by the transpose of L.
 FN vec3 affine_normal(GLOBAL const parameter* p, vec3 n) {
     return make_vec3(dot3(make_vec3(p[3], p[6], p[9]), n), dot3(make_vec3(p[4], p[7], p[10]), n),
                      dot3(make_vec3(p[5], p[8], p[11]), n));
@@ -27,7 +26,7 @@ FN vec3 affine_normal(GLOBAL const parameter* p, vec3 n) {
 
 #ifdef CSGRT_EYE_RELATIVE
 FN wide3 affine_center(GLOBAL const parameter* p, ray3 r) {
-    (void)p;  // its own center is rounded
+    (void)p;  // unused: here the center is rounded
     return r.center;
 }
 #else
@@ -47,7 +46,7 @@ INLINE_FN local_ray to_local(GLOBAL const parameter* p, ray3 r) {
     return l;
 }
 
-// The same with the origin where it is: what the shift is good for shows in the difference.
+// The local ray with the origin where it is. Beside to_local() it shows what the shift is good for.
 FN local_ray to_local_unmoved(GLOBAL const parameter* p, ray3 r) {
     local_ray l;
     l.o = affine_linear(p, leading(offset_from(affine_center(p, r), r.o)));
@@ -56,15 +55,15 @@ FN local_ray to_local_unmoved(GLOBAL const parameter* p, ray3 r) {
     return l;
 }
 
-// As quartics take it (quartic.h).
+// The local ray for a method of quartics (quartic.h).
 FN local_ray quartic_ray(u32 method, GLOBAL const parameter* p, ray3 r) {
     return method == QUARTIC_UNSHIFTED ? to_local_unmoved(p, r) : to_local(p, r);
 }
 
-// Where it comes closest, along the unit direction d: 0 if its origin was moved there.
+// The parameter of the closest approach along the unit direction d: 0 if the origin was moved there.
 FN real quartic_middle(u32 method, vec3 o, vec3 d) { return method == QUARTIC_UNSHIFTED ? -dot3(o, d) : REAL(0); }
 
-// A ray that comes no deeper than this, in parts of the solid's size, may only touch it: it is looked at more closely.
+// The depth, in parts of the solid's size, below which a ray may only touch the solid and is tested more exactly.
 #define TOUCHED REAL(0x1p-12)
 
 FN vec3 local_point(local_ray l, real t) { return add_scaled(l.o, t - l.shift, l.d); }

@@ -1,5 +1,5 @@
-// arb4 to arb8 and arbn: a convex polyhedron, the piece of the ray that all its faces leave. No reals.
-// Planes and surfaces: the faces.
+// arb4 to arb8 and arbn: a convex polyhedron. Its segment is the part of the ray that lies inside all faces' planes. No
+// reals. Planes and surfaces: the faces.
 #ifndef CSGRT_GEOMETRY_ARB_H
 #define CSGRT_GEOMETRY_ARB_H
 

@@ -1,6 +1,6 @@
-// A ray that runs in flat faces of a solid whose crossings are found one by one (meshes, extrusions, ...), on whichever
-// side of each face rounding has put it. The solid is asked for what the ray would meet a step aside of all these
-// faces: above them (touch.h), then below. What is met on one side alone is marked with the other.
+// Beside: a ray that runs in flat faces of a solid whose crossings are found one by one (meshes, extrusions, ...), on
+// whichever side of each face rounding has put the ray. The solid is intersected with the ray moved a step aside of all
+// these faces: above them (touch.h), then below. A segment found on one side alone is marked with the other.
 //
 //                  above                   Seen along the ray, which is the point 0: the faces are lines through 0.
 //         high \     ^     / low           Their normals are turned to point above, and the two outermost of them are
@@ -10,8 +10,8 @@
 //                 /     \                  ray's left and right alone: steps 3 and 4.
 //                /   2   \                 (drawn: the steps and the two outermost faces)
 //
-// Four sides are asked for in the end: above, below, left and right. Each step stands for the sides between the same
-// faces; left and right may lie above all faces, or below.
+// The result has four sides: above, below, left and right. Each step stands for the sides between the same faces; left
+// and right may lie above all faces, or below.
 //
 // A normal n is known by n . above and n . left (touch.h): n . d is 0.
 #ifndef CSGRT_GEOMETRY_BESIDE_H
@@ -20,15 +20,16 @@
 #include "quadratic.h"
 #include "touch.h"
 
-// By how much more than rounding of single numbers a corner of a face may be off the ray, and the ray steps aside.
+// Distances in units of the rounding of single numbers: how far a corner of a face may be off the ray, and how far the
+// ray steps aside.
 #define IN_FACE REAL(1)
 #define ASIDE REAL(8)
 #define STEEPEST REAL(0x1p60)
-#define SAME_FACE REAL(0x1p-20)  // an angle between two normals below which the faces are one
+#define SAME_FACE REAL(0x1p-20)  // the angle between two normals below which the faces are one
 
 typedef struct {
     u32 step;        // 0: the ray is where it is; else 1 to 4
-    u32 found;       // it runs in some face
+    u32 found;       // the ray runs in some face
     real low, high;  // n . left / n . above of the outermost
 } beside;
 
@@ -39,7 +40,7 @@ FN beside not_beside(void) {
     return b;
 }
 
-// A face of which the normal has these products with `above` and `left`.
+// Adds a face. Its normal has the given products with `above` and `left`.
 FN beside add_face(beside b, real n_above, real n_left) {
     real slope = n_left / n_above;
     if (!(real_abs(slope) < STEEPEST)) slope = n_left < 0 ? -STEEPEST : STEEPEST;
@@ -49,7 +50,7 @@ FN beside add_face(beside b, real n_above, real n_left) {
     return b;
 }
 
-// A face in a plane of the world, and one across n in the solid's own space.
+// Adds a face in a plane of the world, or a face across n in the solid's own space.
 RARE_FN beside add_plane(beside b, PlaneRecord plane, ray3 r) {
     const vec3 n = narrow(plane_normal(plane));
     return add_face(b, dot3(n, above_faces()), dot3(n, left_of_ray(r)));
@@ -58,7 +59,7 @@ RARE_FN beside add_local_face(beside b, vec3 n, GLOBAL const real* p, ray3 r) {
     return add_face(b, dot3(n, affine_linear(p, above_faces())), dot3(n, affine_linear(p, left_of_ray(r))));
 }
 
-// In the solid's own space, the normal of a face from these products.
+// The normal of a face in the solid's own space, from the two products.
 RARE_FN vec3 local_normal(GLOBAL const real* p, ray3 r, real n_above, real n_left) {
     const vec3 d = affine_linear(p, r.d), above = affine_linear(p, above_faces()),
                left = affine_linear(p, left_of_ray(r));
@@ -66,7 +67,7 @@ RARE_FN vec3 local_normal(GLOBAL const real* p, ray3 r, real n_above, real n_lef
     return normalize3(dot3(d, cross3(above, left)) < 0 ? scale(n, REAL(-1)) : n);
 }
 
-// By how much the local ray is moved.
+// The vector by which the local ray is moved.
 RARE_FN vec3 aside(beside b, GLOBAL const real* p, ray3 r) {
     const vec3 low = local_normal(p, r, REAL(1), b.low), high = local_normal(p, r, REAL(1), b.high);
     const vec3 way = b.step <= 2 ? add(high, low) : subtract(high, low);
@@ -76,7 +77,7 @@ RARE_FN vec3 aside(beside b, GLOBAL const real* p, ray3 r) {
     return scale(way, b.step & 1u ? size : -size);
 }
 
-// Does it go out of a face of the solid that lies in this plane?
+// Does the moved ray go out of a face of the solid that lies in this plane?
 RARE_FN int goes_out(beside b, GLOBAL const real* p, ray3 r, PlaneRecord plane, u32 flipped) {
     const vec3 n = narrow(plane_normal(plane));
     const vec3 out = local_normal(p, r, dot3(n, above_faces()), dot3(n, left_of_ray(r)));
@@ -88,7 +89,7 @@ FN local_ray moved_aside(local_ray l, beside b, GLOBAL const real* p, ray3 r) {
     return l;
 }
 
-// The sides for which the step stands, if any.
+// The sides for which the step stands; 0: none.
 FN u32 sides_of_step(beside b) {
     const u32 left_is_above = b.low >= 0, left_is_below = b.high < 0, is_between = !left_is_above && !left_is_below;
     if (b.step == 1) return MISSED_ABOVE | (left_is_above ? MISSED_LEFT : left_is_below ? MISSED_RIGHT : 0u);
@@ -96,18 +97,18 @@ FN u32 sides_of_step(beside b) {
     return !is_between ? 0u : b.step == 3 ? MISSED_LEFT : MISSED_RIGHT;
 }
 
-// What the ends are marked with: all other sides.
+// The marks of the segments' boundaries: all other sides.
 FN u32 missed_beside(beside b) { return b.step == 0 ? 0 : MISSED & ~sides_of_step(b); }
 
-// 0: there are no more steps to take.
+// Takes the next step. 0: there is none.
 FN u32 next_step(beside* b) {
     const u32 last = b->high - b->low > SAME_FACE * (REAL(1) + real_abs(b->high * b->low)) ? 4u : 2u;
     ++b->step;
     return b->found && b->step <= last;
 }
 
-// Corners seen along the ray, which is the point 0 (triangle.h): do they lie in one line through it, and is it among
-// them, as far as rounding lets one say? Then `direction` is where this line goes.
+// Corners seen along the ray, which is the point 0 (triangle.h). Do they lie in one line through the ray, with the ray
+// among them, as far as rounding lets csgrt tell? `direction`: the line's.
 RARE_FN int in_line(vec3 a, vec3 b, vec3 c, vec3 d, real rounding, vec3* direction) {
     const real low_x = real_min(real_min(a.x, b.x), real_min(c.x, d.x));
     const real high_x = real_max(real_max(a.x, b.x), real_max(c.x, d.x));

@@ -1,10 +1,11 @@
-// The sides of a ray that the view's planes take away: a ray that runs in such a plane has the sides that it keeps.
+// Beyond: the sides of a ray that the view's planes cut away. A ray that runs in such a plane has the sides that the
+// plane keeps.
 #ifndef CSGRT_GEOMETRY_BEYOND_H
 #define CSGRT_GEOMETRY_BEYOND_H
 
 #include "touch.h"
 
-// MISSED_..., see cover.beyond (boolean/claim.h).
+// Returns MISSED_..., see cover.beyond (boolean/claim.h).
 RARE_FN u32 sides_beyond(GLOBAL const Frame* f, ray3 r) {
     u32 k, beyond = 0;
     for (k = 0; k < f->clip_count; ++k)

@@ -1,4 +1,5 @@
-// The solids that packets of rays know, too: this file is compiled for one ray and for a packet (packet/begin.h).
+// Closed form: the solids that packets of rays know, too. The file is compiled for one ray and for a packet
+// (packet/begin.h).
 #ifndef CSGRT_GEOMETRY_CLOSED_FORM_H
 #define CSGRT_GEOMETRY_CLOSED_FORM_H
 
@@ -45,7 +46,7 @@ FN segments closed_form_intersect(Geometry g, SolidRecord solid, ray3 r) {
     return no_segments();
 }
 
-// Along the outward normal where `surface`, without MISSED_..., is hit at t. 0, 0, 0 of other solids.
+// A vector along the outward normal where `surface`, without MISSED_..., is hit at t. 0, 0, 0 for other solids.
 FN vec3 closed_form_normal(Geometry g, SolidRecord solid, ray3 r, real t, u32 surface) {
     vec3 n = make_vec3(0, 0, 0);
 #if HAS_SOLID(SOLID_ELL)

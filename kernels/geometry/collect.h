@@ -1,4 +1,4 @@
-// Any solid's segments along a ray, as ends: the one door through which the walk, the reference and the tests come.
+// Collect: any solid's segments along a ray, as boundaries. The walk, the reference and the tests all call this.
 #ifndef CSGRT_GEOMETRY_COLLECT_H
 #define CSGRT_GEOMETRY_COLLECT_H
 
@@ -22,7 +22,8 @@ FN void put_segment(ENDS End* ends, u32 solid, real in, u32 in_surface, real out
 }
 
 #if (CSGRT_SOLIDS) & FLAT_FACED
-// The segments of such a solid, as the ray is, or aside of faces in which it runs. *near: it may run in some.
+// The segments of such a solid for the ray as it is, or aside of faces in which it runs. *near: the ray may run in
+// some.
 FN u32 collect_once(Geometry g, SolidRecord solid, ray3 r, crossings c, beside b, u32* near) {
 #if HAS_SOLID(SOLID_EXTRUDE)
     if (solid.type == SOLID_EXTRUDE) return close_crossings(extrude_cross(g, solid, r, c, b, near));
@@ -56,9 +57,9 @@ FN beside find_faces(Geometry g, SolidRecord solid, ray3 r) {
     return not_beside();
 }
 
-// The segments of every step aside, if the ray runs in a face of the solid. They may overlap. `stored`: those of the
-// ray as it is, in whose place they go. `r` is the world's ray. All by itself: what is rare costs every ray wherever it
-// stands.
+// The segments of every step aside, if the ray runs in a face of the solid. They may overlap. `stored`: how many
+// segments the ray as it is has; the new ones take their memory. `r` is the world's ray. The function is not inlined:
+// inlined rare code costs every ray.
 NOINLINE_FN u32 collect_beside(Geometry g, SolidRecord solid, u32 index, ray3 r, real t_min, ENDS End* ends,
                                u32 stored) {
     beside b;
@@ -79,7 +80,7 @@ NOINLINE_FN u32 collect_beside(Geometry g, SolidRecord solid, u32 index, ray3 r,
         }
         count += found;
     }
-    // Room for those of the ray as it is was counted before it was known that the ray runs in a face.
+    // Room for the segments of the ray as it is was counted before it was known that the ray runs in a face.
     for (; count < stored; ++count)
         if (ends) {
             ends[2 * (size_t)count].surface |= MISSED;
@@ -89,8 +90,8 @@ NOINLINE_FN u32 collect_beside(Geometry g, SolidRecord solid, u32 index, ray3 r,
 }
 #endif
 
-// Solids of types that may have more than two segments. Returns 0 if this is another; else *count is set. See
-// collect_as_it_is(). `r` is the solid's own ray (ray_at).
+// Collects from solids of types that may have more than two segments. Returns 0 if the type is another; else *count is
+// set. See collect_as_it_is(). `r` is the solid's own ray (ray_at).
 FN u32 collect_many(Geometry g, SolidRecord solid, u32 index, ray3 r, real t_min, ENDS End* ends, u32* count,
                     u32* near) {
 #if (CSGRT_SOLIDS) & FLAT_FACED
@@ -120,7 +121,7 @@ FN u32 collect_many(Geometry g, SolidRecord solid, u32 index, ray3 r, real t_min
     return 0;
 }
 
-// The segments of any other solid that end at t_min or later.
+// The segments of a solid of another type that end at t_min or later.
 FN segments collect_few(Geometry g, SolidRecord solid, ray3 r, real t_min) {
     segments h = intersect(g, solid, r);
     if (h.touched) h = mark_touched(g, solid, r, h);
@@ -135,8 +136,8 @@ FN segments collect_few(Geometry g, SolidRecord solid, ray3 r, real t_min) {
     return h;
 }
 
-// collect(), but that *near becomes 1 if the ray may run in faces of the solid: then collect_beside() is to be asked,
-// too.
+// Collects the segments of the ray as it is. *near becomes 1 if the ray may run in faces of the solid: then the caller
+// needs collect_beside(), too.
 WHOLE_FN u32 collect_as_it_is(Geometry g, SolidRecord solid, u32 index, ray3 r, real t_min, ENDS End* ends, u32* near) {
     const ray3 own = ray_at(solid, r);
     segments h;
@@ -148,8 +149,8 @@ WHOLE_FN u32 collect_as_it_is(Geometry g, SolidRecord solid, u32 index, ray3 r, 
     return h.count;
 }
 
-// Returns how many segments of the solid end at t_min or later. Their ends are stored from `ends` on, unless that is 0:
-// two a segment, in then out, by ascending distance. `index` is the solid's own.
+// Returns how many segments of the solid end at t_min or later. Their boundaries are stored from `ends` on, unless it
+// is 0: two a segment, in then out, by ascending distance. `index` is the solid's own.
 WHOLE_FN u32 collect(Geometry g, SolidRecord solid, u32 index, ray3 r, real t_min, ENDS End* ends) {
     u32 near = 0;
     const u32 count = collect_as_it_is(g, solid, index, r, t_min, ends, &near);

@@ -1,5 +1,5 @@
-// What a ray meets of a cylinder or cone, whatever the shape of its side: the two ends; the side of a round one; and
-// where it may meet that of another. Parameters, planes and surfaces are the tgc's (tgc.h).
+// Cone: a ray against a cylinder or cone, whatever the shape of its side: the two end caps, the side of a round cone,
+// and the interval where the ray may meet the side of another. Parameters, planes and surfaces are the tgc's (tgc.h).
 #ifndef CSGRT_GEOMETRY_CONE_H
 #define CSGRT_GEOMETRY_CONE_H
 
@@ -16,13 +16,14 @@ FN span between_ends(Geometry g, SolidRecord solid, ray3 r) {
                         TGC_TOP);
 }
 
-// a u^2 + 2 b u + c, and b^2 - a c; `most`: what that is at most, for a ray through the axis.
+// A quadratic a u^2 + 2 b u + c, and its discriminant b^2 - a c. `most`: the greatest discriminant, of a ray through
+// the axis.
 typedef struct {
     real a, b, c, discriminant, most;
 } quadratic;
 
-// x^2 + y^2 - m^2 with m = m0 + m1 u, the radius along the ray. Its discriminant b^2 - a c equals
-// |m0 d - m1 o|^2 - (o x d)^2 (all in x, y), which does not cancel where b^2 and a c do.
+// The quadratic x^2 + y^2 - m^2 with m = m0 + m1 u, the radius along the ray. Its discriminant b^2 - a c equals |m0 d -
+// m1 o|^2 - (o x d)^2 (all in x, y), which does not cancel where b^2 and a c do.
 //
 // A cone with a true apex has it as its local origin (m0 = m1 z / d.z exactly), so that rays past the apex keep their
 // digits.
@@ -45,15 +46,15 @@ FN lane_mask may_touch_side(local_ray l, quadratic f, real m0) {
     return real_abs(f.discriminant) < f.most * TOUCHED || along;
 }
 
-// The piece of `s` on which a side that is not round may be met, with u in units of the direction's length: everything
-// lies within radius2. Empty: low >= high.
+// The part of `s` in which the ray may meet a side that is not round: everything lies within radius2. u is in units of
+// the direction's length. Empty: low >= high.
 FN span tapered_piece(u32 method, GLOBAL const parameter* p, local_ray l, span s) {
     const real length = real_sqrt(dot3(l.d, l.d));
     const real middle = quartic_middle(method, l.o, scale(l.d, REAL(1) / length));
     const real reach = REAL(1.0001) * real_sqrt(p[17] - (dot3(l.o, l.o) - middle * middle));
     s.low = (s.low - l.shift) * length;
     s.high = (s.high - l.shift) * length;
-    // Of a miss the reach is not a number, and so are both ends then.
+    // A miss makes `reach` NaN, and so both limits.
     s.low = s.low > middle - reach ? s.low : middle - reach;
     s.high = s.high < middle + reach ? s.high : middle + reach;
     return s;

@@ -1,11 +1,12 @@
-// Solids that a ray may cross any number of times (meshes, extrusions, ...) hand over their crossings here, in any
-// order. They are sorted in place, in the ray's own memory, and paired from the front: in, out, in, out.
+// Crossings: solids that a ray may cross any number of times (meshes, extrusions, ...) add their crossings here, in any
+// order. Crossings are sorted in place, in the ray's own memory, and paired from the front: in, out, in, out.
 //
 //   crossings    |     |   |        |          of a closed surface: an even number
-//   ends         in   out  in      out
+//   boundaries   in   out  in      out
 //
-// A surface that is not closed leaves one over: it becomes a segment of no length, which the weave drops. Where such a
-// surface tells its inside from its outside, a crossing says which it is, and one in and the very next out are a pair:
+// A surface that is not closed leaves one crossing over: it becomes a segment of no length, which the weave drops. Some
+// open surfaces tell their inside from their outside. Their crossings are marked in or out, and an in and the very next
+// out are a pair:
 //
 //   crossings    |     |     |   |     |
 //                out   in    in  out   out
@@ -15,16 +16,16 @@
 
 #include "segments.h"
 
-#define LEAVES 0x80000000u  // set in End.surface of an end where the ray leaves such a solid
+#define LEAVES 0x80000000u  // set in End.surface of a boundary where the ray leaves such a solid
 
 typedef struct {
-    ENDS End* ends;  // where the solid's ends go; 0: they are only counted
+    ENDS End* ends;  // memory for the solid's boundaries; 0: they are only counted
     u32 solid;
     real t_min;         // segments that end before this are not wanted
     u32 behind, ahead;  // crossings before t_min, and the others
-    real last;          // the last one before t_min
+    real last;          // the distance of the last crossing before t_min
     u32 last_surface;
-    u32 missed;  // set in the ends' surfaces: MISSED_...
+    u32 missed;  // set in the boundaries' surfaces: MISSED_...
 } crossings;
 
 FN crossings no_crossings(u32 solid, real t_min, ENDS End* ends) {
@@ -37,7 +38,7 @@ FN crossings no_crossings(u32 solid, real t_min, ENDS End* ends) {
     return c;
 }
 
-// Puts a segment among `count` that are sorted by where they begin, and there by surface.
+// Inserts a segment among `count` segments that are sorted by the distance and then the surface of their beginning.
 FN void insert_segment(ENDS End* ends, u32 count, End in, End out) {
     u32 i = count;
     while (i > 0 && (ends[2 * i - 2].t > in.t || (ends[2 * i - 2].t == in.t && ends[2 * i - 2].surface > in.surface))) {
@@ -49,7 +50,7 @@ FN void insert_segment(ENDS End* ends, u32 count, End in, End out) {
     ends[2 * i + 1] = out;
 }
 
-// One more crossing. Crossings at one t are ordered by surface, so the order in which they are found does not matter.
+// Adds a crossing. Crossings at one t are ordered by surface, so the order in which they are found does not matter.
 FN crossings cross(crossings c, real t, u32 surface) {
     surface |= c.missed;
     if (t < c.t_min) {
@@ -78,7 +79,7 @@ FN crossings cross(crossings c, real t, u32 surface) {
 
 // Pairs the crossings; returns the number of segments.
 FN u32 close_crossings(crossings c) {
-    u32 inside = c.behind & 1u;  // at t_min
+    u32 inside = c.behind & 1u;  // whether the ray is inside at t_min
     u32 count = c.ahead + inside, i;
     if (c.ahead == 0) return 0;
     if (c.ends) {
@@ -96,21 +97,21 @@ FN u32 close_crossings(crossings c) {
     return (count + 1) / 2;
 }
 
-// Pairs crossings that are marked already (LEAVES) where the ray goes out. Every out ends a segment, which has no
-// length unless an in came right before it; at the end there may be more of none, because room for all crossings was
-// wanted. Returns the number of segments.
+// Pairs crossings that are already marked (LEAVES) where the ray goes out. Every out ends a segment, which has no
+// length unless an in came right before it. More segments of no length may follow, because room for all crossings was
+// counted. Returns the number of segments.
 FN u32 close_marked_crossings(crossings c, u32 outs) {
-    u32 inside = c.behind > 0 && !(c.last_surface & LEAVES);  // at t_min
+    u32 inside = c.behind > 0 && !(c.last_surface & LEAVES);  // whether the ray is inside at t_min
     u32 count = (c.ahead + 1) / 2, kept = 0, out = outs, i;
     if (count < outs) count = outs;
     if (!c.ends || count == 0) return count;
-    // What stays: the outs, and ins before an out.
+    // The crossings that stay: the outs, and ins before an out.
     for (i = 0; i < c.ahead; ++i)
         if ((c.ends[i].surface & LEAVES) || (i + 1 < c.ahead && (c.ends[i + 1].surface & LEAVES))) {
             End e = c.ends[i];
             c.ends[kept++] = e;
         }
-    // From the back, because pairs take more room.
+    // The loop runs from the back, because pairs take more room.
     {
         End last = c.ends[kept > 0 ? kept - 1 : 0];
         for (i = outs; i < count; ++i) {

@@ -1,10 +1,10 @@
-// Plane curves: rational Bezier pieces, and the straight ones among them.
+// Curves: plane rational Bezier curves, and straight lines.
 //
-// A sketch stands in `words` from first_word on: where its reals begin, how many lines it has, how many curves, where
-// in inner_nodes the hierarchy over its lines begins and how many nodes that has (0: none), then for each curve where
-// its reals begin and its degree. The sketch's reals are x0 y0 x1 y1 a line. A curve's are x y weight a control point;
-// weights are positive, and 1 at its ends. Points where pieces meet are equal to the bit. Pieces are numbered, lines
-// first.
+// A sketch stands in `words` from first_word on: the position of its reals, the number of its lines and of its curves,
+// the position in inner_nodes of the hierarchy over its lines and the number of its nodes (0: none), then for each
+// curve the position of its reals and its degree. The sketch's reals are x0 y0 x1 y1 a line. A curve's reals are x y
+// weight a control point; weights are positive, and 1 at the first and last. Points where lines and curves meet are
+// equal to the bit. Lines and curves are numbered together, lines first.
 #ifndef CSGRT_GEOMETRY_CURVE_H
 #define CSGRT_GEOMETRY_CURVE_H
 
@@ -38,14 +38,14 @@ typedef struct {
     real dx, dy, dw;
 } curve_point;
 
-// At t by the last step of de Casteljau's algorithm, between the points of the curves of one degree less, each summed
-// in the way of Horner (Farin). All terms have one sign where the coefficients do.
+// The point at t by the last step of de Casteljau's algorithm, between the points of the curves of one degree less.
+// Each of these is summed as in Horner's rule (Farin). All terms have one sign where the coefficients do.
 FN curve_point curve_at(GLOBAL const real* p, u32 degree, real t) {
     curve_point c;
     real s = REAL(1) - t, factor = 1, n = REAL(degree);
     real x0 = p[0] * p[2], y0 = p[1] * p[2], w0 = p[2];
     real x1 = p[3] * p[5], y1 = p[4] * p[5], w1 = p[5];
-    real x = x1, y = y1, w = w1;  // of the point that both have, weighted
+    real x = x1, y = y1, w = w1;  // the point that both curves have, weighted
     u32 i;
     for (i = 1; i < degree; ++i) {
         factor = factor * (t * REAL(degree - i)) / REAL(i);

@@ -1,12 +1,12 @@
-// A solid that is cut out of another, whose crossings with the ray are found one by one and in any order, by planes:
-// what lies between two of them, or all but that.
+// Cut: a solid that planes cut out of another solid, whose crossings with the ray are found one by one and in any
+// order. The part between two planes stays, or all but this part.
 //
 //     low                     high
 //     -----|=========|=|===============|---------|=============|=====|-----> t
-//          x         |  cut off  |     x         x             |     x         x: crossings of what is cut
+//          x         |  cut off  |     x         x             |     x         x: crossings of the other solid
 //
-// Crossings on the side that stays are the solid's own. At each of the two cuts the parity of the crossings before it
-// tells whether the ray crosses it inside what is cut; then that is a crossing of the solid, too.
+// Crossings on the side that stays are the solid's own. At each of the two planes, the parity of the crossings before
+// it tells whether the ray crosses the plane inside the other solid; then this crossing is the solid's, too.
 #ifndef CSGRT_GEOMETRY_CUT_H
 #define CSGRT_GEOMETRY_CUT_H
 
@@ -14,7 +14,7 @@
 
 typedef struct {
     span between;
-    int keeps_between;      // else what lies outside stays
+    int keeps_between;      // 1: the part between the planes stays; 0: the part outside
     u32 low_odd, high_odd;  // crossings before between.low, and before between.high
     crossings c;
 } cut;

@@ -3,8 +3,8 @@
 //   local z = -1 at the base, +1 at the apex; w = (1 - z) / 2 is the depth below the apex in units of the height:
 //   x^2 + y^2 - k w (w + 2 c) < 0,  k = 1 / (1 + 2 c),  w > -c, where the vertex of the asymptotic cone lies
 //
-// All is in w and k c, which is 1/2 at most. The distance below the vertex, c + w, would lose w's digits where c is
-// large: there the solid is all but a paraboloid.
+// All formulas are in w and k c, which is 1/2 at most. The distance below the vertex, c + w, would lose w's digits
+// where c is large: there the solid is nearly a paraboloid.
 #ifndef CSGRT_GEOMETRY_EHY_H
 #define CSGRT_GEOMETRY_EHY_H
 
@@ -31,7 +31,7 @@ FN segments ehy_intersect(Geometry g, SolidRecord solid, ray3 r) {
     a = real_fma(l.d.x, l.d.x, l.d.y * l.d.y) - k * rate * rate;
     b = real_fma(l.o.x, l.d.x, l.o.y * l.d.y) - rate * real_fma(k, w, kc);
     at_zero = real_fma(l.o.x, l.o.x, l.o.y * l.o.y) - w * real_fma(k, w, REAL(2) * kc);
-    // b^2 - a at_zero, in which the terms with (k c)^2 |d|^2 cancel.
+    // The discriminant b^2 - a at_zero, in which the terms with (k c)^2 |d|^2 cancel.
     wx = difference_of_products(w, l.d.x, rate, l.o.x);
     wy = difference_of_products(w, l.d.y, rate, l.o.y);
     cross = difference_of_products(l.o.x, l.d.y, l.o.y, l.d.x);

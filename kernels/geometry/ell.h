@@ -1,5 +1,5 @@
-// Ellipsoid and sphere: the affine image of x^2 + y^2 + z^2 = 1. Parameters: affine (12). Surface 0.
-// With q the local ray's point closest to the center: hits at u = u(q) -+ sqrt((1 - q.q) / d.d).
+// Ellipsoid and sphere: the affine image of x^2 + y^2 + z^2 = 1. Parameters: affine (12). Surface 0. With q the local
+// ray's point closest to the center, the hits are at u = u(q) -+ sqrt((1 - q.q) / d.d).
 #ifndef CSGRT_GEOMETRY_ELL_H
 #define CSGRT_GEOMETRY_ELL_H
 

@@ -7,14 +7,13 @@
 // (else: crossed_eto.h). Written in R = rho^2 - 1 and G = gamma z^2 - 1 its terms stay small near a thin tube. Each
 // root is polished on F itself.
 //
-// Where the ellipse all but touches the axis, at z = beta / gamma, all that is left of these terms there is rounding.
-// With h the height above that point, reach = outer radius - 1 and gap = 1 / reach^2 - 1, the same is
+// Where the ellipse nearly touches the axis, at z = beta / gamma, rounding is all that is left of these terms. With h
+// the height above this point, reach = outer radius - 1 and gap = 1 / reach^2 - 1, F has another form:
 //
-//   F(rho) = E + rho O,   F(rho) F(-rho) = E^2 - rho^2 O^2,   E = alpha rho^2 + gamma h^2 + gap,   O = 2 beta h - 2 (1
-//   + gap)
+//   F(rho) = E + rho O,   F(rho) F(-rho) = E^2 - rho^2 O^2
+//   E = alpha rho^2 + gamma h^2 + gap,   O = 2 beta h - 2 (1 + gap)
 //
-// whose terms vanish with it where the gap is 0. A ray that passes near is taken from its closest approach to that
-// point.
+// Its terms vanish with F where the gap is 0. A ray that passes near is taken from its closest approach to the point.
 #ifndef CSGRT_GEOMETRY_ETO_H
 #define CSGRT_GEOMETRY_ETO_H
 
@@ -23,19 +22,19 @@
 
 #define ETO_MARGIN                 \
     BY_PRECISION(1.0001, 1.000001, \
-                 1.000001)  // the piece that is searched is a little larger than the solid, so its ends are outside
+                 1.000001)  // the searched interval is a little larger than the solid, so both its limits are outside
 
-// F at a point, and its rate of change along d.
+// The value of F at a point, and its rate of change along d.
 typedef struct {
     real value, slope;
 } eto_form;
 
-// Of the point where the ellipse is nearest to the axis, as a ray that passes it sees it (tor.h).
+// The pinch, the point where the ellipse is nearest to the axis, relative to a ray that passes it (tor.h).
 typedef struct {
-    vec3 o;      // the ray's closest approach, from there
-    real along;  // where that is on the ray
+    vec3 o;      // the ray's closest approach, from the pinch
+    real along;  // its distance along the ray
     real gap;
-    int passes;  // the ray passes near
+    int passes;  // whether the ray passes near
 } eto_pinch;
 
 #define ETO_PINCH_REACH REAL(0.2)
@@ -77,8 +76,8 @@ FN eto_form eto_at(GLOBAL const real* p, vec3 o, vec3 d, real u, eto_pinch pinch
     return f;
 }
 
-// Newton from a root of the quartic, whose error is at most about a tenth of POLISH_STEP (a grazed thin tube). A step
-// is taken if it is small and brings the point nearer to the surface.
+// Newton's steps from a root of the quartic, whose error is at most about a tenth of POLISH_STEP (a grazed thin tube).
+// A step is taken if it is small and brings the point nearer to the surface.
 FN real eto_polish(GLOBAL const real* p, vec3 o, vec3 d, real u, eto_pinch pinch) {
     eto_form f = eto_at(p, o, d, u, pinch);
     int step;
@@ -94,7 +93,7 @@ FN real eto_polish(GLOBAL const real* p, vec3 o, vec3 d, real u, eto_pinch pinch
     return u;
 }
 
-// E^2 - rho^2 O^2 along a ray, of E = e0 + e1 u + e2 u^2, O = q0 + q1 u and rho^2 = r0 + r1 u + r2 u^2.
+// The quartic E^2 - rho^2 O^2 along a ray, from E = e0 + e1 u + e2 u^2, O = q0 + q1 u and rho^2 = r0 + r1 u + r2 u^2.
 FN quartic eto_product(real e0, real e1, real e2, real q0, real q1, real r0, real r1, real r2) {
     // O^2 = s0 + s1 u + s2 u^2
     const real s0 = q0 * q0, s1 = REAL(2) * q0 * q1, s2 = q1 * q1, reached = real_sqrt(r0) * q0;
@@ -117,7 +116,7 @@ FN quartic eto_pinched(GLOBAL const real* p, eto_pinch pinch, vec3 d) {
     return eto_product(e0, e1, e2, q0, q1, r0, r1, r2);
 }
 
-// Of a ray that passes no such point.
+// The quartic of a ray that does not pass near the pinch.
 FN quartic eto_quartic(GLOBAL const real* p, vec3 o, vec3 d) {
     const real alpha = p[12], beta = p[13], gamma = p[14];
     quartic g;
@@ -143,7 +142,8 @@ FN quartic eto_quartic(GLOBAL const real* p, vec3 o, vec3 d) {
     return g;
 }
 
-// The piece of a ray that may meet the solid, between `low` and `high` along the unit direction d. Empty: low >= high.
+// The interval of a ray that may meet the solid, between `low` and `high` along the unit direction d. Empty: low >=
+// high.
 typedef struct {
     local_ray l;
     vec3 d;

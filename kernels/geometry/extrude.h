@@ -1,12 +1,11 @@
-// What a sketch encloses, moved along a line: extrude, ebm.
-// Parameters: affine (12); local x and y are the sketch's own, z runs from -1 to 1 along the height. Words: the sketch.
-// Planes: the end at z = -1, the end at z = 1, then the walls over the sketch's lines. Surfaces: 0 and 1 the ends, then
-// the walls over the sketch's pieces.
+// Extrude, ebm: the inside of a sketch, moved along a line. Parameters: affine (12); local x and y are the sketch's
+// own, z runs from -1 to 1 along the height. Words: the sketch. Planes: the cap at z = -1, the cap at z = 1, then the
+// walls over the sketch's lines. Surfaces: 0 and 1 the caps, then the walls over the sketch's lines and curves.
 //
 // Seen along the height the ray is a line in the sketch's plane. Each crossing of the outline turns inside into outside
-// (even-odd), and the ends cut the solid out of that prism. On which side of the line a point lies is the sign of one
-// expression, so all pieces that meet in a point agree about it, and the count of crossings of a closed outline is
-// even, vertices hit or not.
+// (even-odd), and the caps cut the solid out of this prism. The side of the line on which a point lies is the sign of
+// one expression. So all lines and curves that meet in a point agree about it, and a closed outline has an even number
+// of crossings, whether the ray hits vertices or not.
 #ifndef CSGRT_GEOMETRY_EXTRUDE_H
 #define CSGRT_GEOMETRY_EXTRUDE_H
 
@@ -31,17 +30,18 @@ typedef struct {
 FN real side_of(line2 l, real x, real y) { return difference_of_products(l.dx, y - l.oy, l.dy, x - l.ox); }
 FN real place_along(line2 l, real x, real y) { return real_fma(l.dx, x - l.ox, l.dy * (y - l.oy)); }
 
-// The ray as the sketch sees it.
+// The ray in the sketch's plane.
 typedef struct {
     local_ray ray;
     line2 line;
-    real speed;  // along the line, as t grows; 0: the ray runs along the height
+    real speed;  // change of the line's parameter as t grows; 0: the ray runs along the height
     real slack;  // WALL_SLACK in units of t
-    int steep;   // it all but runs along the height: then the line's direction is rounding's
+    int steep;   // the ray nearly runs along the height: then the line's direction is rounding's
 } sketch_ray;
 #define STEEP REAL(0x1p-20)
 
-// Along the height it has no direction there: then any line through the point will do.
+// The sketch_ray of a local ray. A ray along the height has no direction there: then any line through the point will
+// do.
 FN sketch_ray to_sketch(local_ray l) {
     sketch_ray w;
     const real length = real_sqrt(dot3(l.d, l.d));
@@ -64,15 +64,15 @@ FN sketch_ray to_sketch(local_ray l) {
     return w;
 }
 
-// A place along the line as a distance. A ray along the height is inside the outline, all the way, if an odd number of
-// crossings lies to one side of it: those count as before everything, the others as after it.
+// The distance of a point along the line. A ray along the height is inside the outline, all the way, if an odd number
+// of crossings lies to one side of it: these count as before everything, the others as after it.
 FN real distance_at(sketch_ray w, real place) {
     if (w.speed == 0) return place > 0 ? -REAL_INFINITY : REAL_INFINITY;
     return w.ray.shift + place / w.speed;
 }
 
-// May the ray run in the wall over a line? add_wall looks more closely. No more than rounding, however far the ray
-// comes from.
+// May the ray run in the wall over a line? add_wall tests more exactly. The limit is the size of rounding, however far
+// the ray comes from.
 #define IN_WALL REAL(0x1p-30)
 FN int may_run_in_wall(sketch_ray w, GLOBAL const real* p) {
     if (real_abs(side_of(w.line, p[0], p[1])) <= IN_WALL && real_abs(side_of(w.line, p[2], p[3])) <= IN_WALL) return 1;
@@ -99,12 +99,12 @@ FN cut meet_line(cut k, sketch_ray w, GLOBAL const real* p, Geometry g, u32 plan
     place = place_along(w.line, p[0], p[1]);
     place = real_fma(place_along(w.line, p[2], p[3]) - place, side0 / (side0 - side1), place);
     t = distance_at(w, place);
-    // The wall's plane may be another solid's, too: its t is the one to take, but for rays that all but run along it.
+    // The wall's plane may be another solid's, too: its t is used, except for rays that nearly run along the wall.
     to_wall = face_distance(g, plane, r);
     return cut_crossing(k, real_abs(to_wall - t) <= w.slack ? to_wall : t, surface);
 }
 
-// Can the line cross what lies in a box? The boxes are padded by far more than rounding.
+// Can the line cross anything in a box? The boxes are padded by far more than rounding.
 FN int enters_box(line2 l, BvhNode box) {
     real x = REAL(0.5) * (REAL(box.low[0]) + REAL(box.high[0])), y = REAL(0.5) * (REAL(box.low[1]) + REAL(box.high[1]));
     real half_x = REAL(box.high[0]) - x, half_y = REAL(box.high[1]) - y;

@@ -1,4 +1,4 @@
-// Half-space: one plane; the segment reaches to infinity on one side, or on both. No reals. Surface 0.
+// Half-space: one plane; the segment extends to infinity on one side, or on both. No reals. Surface 0.
 #ifndef CSGRT_GEOMETRY_HALF_H
 #define CSGRT_GEOMETRY_HALF_H
 

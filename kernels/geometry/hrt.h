@@ -1,11 +1,15 @@
 // Heart. Parameters: affine (12). Surface 0.
 //
-//   (x^2 + 9/4 y^2 + z^2 - 1)^3 - x^2 z^3 - 9/80 y^2 z^3 < 0, whose gradient is 0 all along the ellipse A = 0 = z, is
-//   the same as F = A - z B^(1/3) < 0,   A = x^2 + 9/4 y^2 + z^2 - 1,  B = x^2 + 9/80 y^2 which has one almost
-//   everywhere: only the dimples on the z axis are pointed.
+//   (x^2 + 9/4 y^2 + z^2 - 1)^3 - x^2 z^3 - 9/80 y^2 z^3 < 0
 //
-// The ray is cut where A or B is least and where z is 0. On each part A, A', B, B' and z are monotone, so the ranges of
-// F and of its derivatives follow from their values at the ends; pieces are walked as in superell.h.
+// The gradient of this function is 0 all along the ellipse A = 0 = z. The same heart is
+//
+//   F = A - z B^(1/3) < 0,   A = x^2 + 9/4 y^2 + z^2 - 1,  B = x^2 + 9/80 y^2
+//
+// whose gradient is not 0 almost everywhere: only the dimples on the z axis are pointed.
+//
+// The ray is cut where A or B is least and where z is 0. On each part A, A', B, B' and z are monotone. So the ranges of
+// F and of its derivatives follow from their values at both ends of an interval; intervals are walked as in superell.h.
 #ifndef CSGRT_GEOMETRY_HRT_H
 #define CSGRT_GEOMETRY_HRT_H
 
@@ -24,7 +28,7 @@
 typedef struct {
     real a_least, a_at, a_rate;  // A = a_least + a_rate (u - a_at)^2
     real b_least, b_at, b_rate;  // B likewise
-    real z, z_rate, z_zero;      // z_zero: where z is 0, if that lies in the searched piece
+    real z, z_rate, z_zero;      // z_zero: where z is 0, if it is in the searched interval
     u32 has_zero;
 } hrt_ray;
 
@@ -53,8 +57,8 @@ FN hrt_point hrt_at(hrt_ray l, real u) {
 }
 
 #define HRT_UNDECIDED 0
-#define HRT_MONOTONE 1  // or free of zeros
-#define HRT_BENT 2      // turns once at most
+#define HRT_MONOTONE 1  // or without zeros
+#define HRT_BENT 2      // at most one turning point
 
 FN int hrt_look(hrt_ray l, hrt_point a, hrt_point b) {
     range z = range_between(a.z, b.z), root = range_between(a.root, b.root);
@@ -145,7 +149,7 @@ FN crossings hrt_part(crossings c, hrt_ray l, real low, real high, real shift, r
     return c;
 }
 
-// low <= at + rate u <= high
+// The part of `s` with low <= at + rate u <= high.
 FN span hrt_clip(span s, real at, real rate, real low, real high) {
     if (rate != 0) {
         real first = (low - at) / rate, second = (high - at) / rate;
@@ -157,7 +161,7 @@ FN span hrt_clip(span s, real at, real rate, real low, real high) {
     return s;
 }
 
-// The heart lies within 1.14, 0.67 and -1 to 1.24; the searched box is larger, so that its ends are outside.
+// The heart lies within 1.14, 0.67 and -1 to 1.24; the searched box is larger, so that both limits are outside.
 FN crossings hrt_cross(GLOBAL const real* p, ray3 r, crossings c) {
     local_ray l = to_local(p, r);
     real length = real_sqrt(dot3(l.d, l.d));
@@ -186,7 +190,7 @@ FN crossings hrt_cross(GLOBAL const real* p, ray3 r, crossings c) {
             ray.b_least = HRT_DIMPLE_Y * cross * cross / ray.b_rate;
         } else {
             ray.b_rate = 0;
-            ray.b_at = REAL(-8);  // along the axis: B does not change, and is least nowhere in the piece
+            ray.b_at = REAL(-8);  // along the axis B is constant, and has no least value in the interval
             ray.b_least = real_fma(l.o.x, l.o.x, HRT_DIMPLE_Y * l.o.y * l.o.y);
         }
     }

@@ -1,16 +1,16 @@
-// Where a ray crosses what a piece of a curve sweeps about an axis.
+// Hyperbola: where a ray crosses the surface that a line or curve sweeps about an axis.
 //
 // The ray stands for a hyperbola in the half plane of the curve: at height z its distance from the axis is
 //
-//     rho(z)^2 = p^2 + x(z)^2,   x(z) = q + (z - oz) across / dz     p: how far the ray passes the axis
+//     rho(z)^2 = p^2 + x(z)^2,   x(z) = q + (z - oz) across / dz     p: the ray's distance from the axis
 //
-// A piece crosses it where f = dz^2 (r^2 - p^2) - (dz q + (z - oz) across)^2 changes its sign, a polynomial of twice
-// the piece's degree. f is positive where the piece is farther from the axis than the ray, and at a vertex the same for
-// both pieces that meet there.
+// A curve crosses it where f = dz^2 (r^2 - p^2) - (dz q + (z - oz) across)^2 changes its sign, a polynomial of twice
+// the curve's degree. f is positive where the curve is farther from the axis than the ray, and has the same value at a
+// vertex for both curves that meet there.
 //
 //     z |   \      |       flat rays (dz small): the hyperbola closes to the line z = oz, run through twice
 //       |    \     |
-//       |     )  .-x-.     Between its two arms f is positive only within about dz of that line. So each piece is split
+//       |     )  .-x-.     Between its two arms f is positive only within about dz of that line. So each curve is split
 //       |    /  (  |  )    where it crosses z = oz, where f has the sign of r - p, known however small dz is: then
 //       |   /    `-x-'     there is one crossing on each arm, or none.
 //       +---------------- r
@@ -28,11 +28,11 @@
 #define FAINT REAL(1e-37)                            // greater than 0 and less than any rounding of f
 #define POLISH_REACH BY_PRECISION(1e-3, 1e-6, 1e-6)  // no step of the last polish is longer
 
-// The ray about the axis, in a unit direction: at s it is at height oz + s dz and x = q + s across.
+// The ray about the axis, in a unit direction: at s its height is oz + s dz and x = q + s across.
 typedef struct {
     real shift, speed;  // t = shift + s / speed
     real dz, across, p, q, oz;
-    int flat;  // q is 0: s is counted from where the ray passes the axis
+    int flat;  // 1: s is counted from where the ray passes the axis, so q is 0
 } axis_ray;
 
 FN axis_ray around_axis(local_ray l) {
@@ -62,7 +62,7 @@ FN axis_ray around_axis(local_ray l) {
     return a;
 }
 
-// A point of a piece: radius, height, and how they change.
+// A point of a curve: radius, height, and their derivatives.
 typedef struct {
     real r, z, dr, dz;
 } profile_point;
@@ -84,8 +84,8 @@ FN profile_point profile_at(GLOBAL const real* p, u32 degree, u32 stride, real t
     return at;
 }
 
-// f of a piece, in Bernstein form: products of linear forms of its control points. The values at the ends are one
-// difference of products each, the same for every piece that ends there.
+// The polynomial f of a curve, in Bernstein form: products of linear forms of its control points. The values at 0 and 1
+// are one difference of products each, the same for every curve that ends there.
 FN void radial_form(GLOBAL const real* p, u32 degree, u32 stride, axis_ray a, real* f) {
     real less[CURVE_SIZE], more[CURVE_SIZE], x[CURVE_SIZE];  // each times the binomial coefficient
     real binomial = 1;
@@ -111,11 +111,11 @@ FN void radial_form(GLOBAL const real* p, u32 degree, u32 stride, axis_ray a, re
 
 FN int radial_sign(axis_ray a, real f, real r, real z) { return a.flat && z == a.oz ? r > a.p : f > 0; }
 
-// The crossing in [low, high] of a piece, where f changes its sign from `positive`, and how far along the ray it is.
-// `arm` tells on which arm of the hyperbola a flat ray is met: its sign is that of s.
+// The crossing in [low, high] of a curve, where f changes its sign from `positive`, and its distance along the ray.
+// `arm` says on which arm of the hyperbola a flat ray is met: its sign is that of s.
 typedef struct {
     real at, s;
-    int within;  // of a flat ray: the piece is no farther from the axis there than the ray comes
+    int within;  // of a flat ray: there the curve is no farther from the axis than the ray comes
 } radial_root;
 
 FN radial_root root_of_form(GLOBAL const real* p, u32 degree, u32 stride, axis_ray a, bracket b, real arm) {
@@ -150,8 +150,8 @@ FN radial_root root_of_form(GLOBAL const real* p, u32 degree, u32 stride, axis_r
         root.s = room > 0 ? arm * real_sqrt(room) / a.across : REAL(0);
         root.within = !(room > 0);
     }
-    // Where the piece leaves the hyperbola's vertex the root of `room` has few digits, though the crossing may be
-    // sharp: z = oz + s dz and r^2 = p^2 + (s across)^2, by Newton in both.
+    // Where the curve leaves the hyperbola's vertex the root of `room` has few digits, though the crossing may be
+    // sharp: z = oz + s dz and r^2 = p^2 + (s across)^2, by Newton's method in both.
     for (step = 0; step < 2; ++step) {
         real height = (c.z - a.oz) - root.s * a.dz;
         real x = root.s * a.across;
@@ -168,7 +168,7 @@ FN radial_root root_of_form(GLOBAL const real* p, u32 degree, u32 stride, axis_r
     return root;
 }
 
-// The crossings of one piece, one after the other. f is looked at between two splits at a time.
+// The crossings of one curve, one after the other. f is evaluated between two splits at a time.
 typedef struct {
     GLOBAL const real* p;
     u32 degree, stride;
@@ -178,8 +178,8 @@ typedef struct {
     real low, high;
     int high_positive;  // f at `high`
     int above;          // z > oz between the splits
-    int is_last;        // nothing comes behind `high`: a split may lie at 1, a bit before the piece's end
-    radial_root ahead;  // found already, unless it is one within
+    int is_last;        // nothing comes behind `high`: a split may lie at 1, a bit before the curve's end
+    radial_root ahead;  // found already, unless `within` is 1
 } profile_walk;
 
 FN void next_part(profile_walk* w, axis_ray a) {
@@ -208,7 +208,7 @@ FN void next_part(profile_walk* w, axis_ray a) {
     w->signs = start_sign_walk(w->part);
 }
 
-// 0: the piece has none.
+// Starts the walk. 0: the curve has no crossing.
 FN int start_profile_walk(profile_walk* w, GLOBAL const real* p, u32 degree, u32 stride, axis_ray a) {
     u32 i, beyond = 0;
     for (i = 0; i <= degree; ++i) {
@@ -231,7 +231,7 @@ FN int start_profile_walk(profile_walk* w, GLOBAL const real* p, u32 degree, u32
     return 1;
 }
 
-// The next crossing between two splits. 0: there is no more.
+// Moves to the next crossing between two splits. 0: there is none.
 FN int next_in_part(profile_walk* w, axis_ray a, radial_root* root) {
     real size = w->high - w->low;
     bracket b;
@@ -249,7 +249,7 @@ FN int next_profile_crossing(profile_walk* w, axis_ray a, radial_root* root) {
     }
     for (;;) {
         // Where f touches 0, as at z = oz if the ray runs across the axis, rounding makes two crossings of none: f is
-        // negative wherever the piece is nearer to the axis than the ray. Such a pair is left out.
+        // negative wherever the curve is nearer to the axis than the ray. Such a pair is left out.
         while (next_in_part(w, a, root))
             if (!root->within || !w->signs.positive || !next_in_part(w, a, &w->ahead) || !w->ahead.within) return 1;
         if (w->is_last) return 0;

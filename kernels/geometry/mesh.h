@@ -1,5 +1,5 @@
-// Closed surfaces of triangles: what they enclose by parity (see crossings.h), whichever way the triangles face. Those
-// that are not closed, but face one way: what they enclose where a ray does not come through a gap.
+// Mesh: surfaces of triangles. A closed surface encloses its inside by parity (see crossings.h), whichever way its
+// triangles face. An open surface whose triangles face one way has an inside where a ray does not come through a gap.
 // Parameters, words: see triangle.h. Surfaces: the triangles, and LEAVES where the ray goes out.
 #ifndef CSGRT_GEOMETRY_MESH_H
 #define CSGRT_GEOMETRY_MESH_H
@@ -8,25 +8,27 @@
 #include "crossings.h"
 #include "triangle.h"
 
-// The triangles that a ray meets, one after the other in the order of the hierarchy. All count, those before t_min too:
+// The triangles that a ray meets, one after the other in the order of the hierarchy. Triangles before t_min count, too:
 // they tell whether the ray is inside there.
 typedef struct {
     GLOBAL const real* vertices;
     GLOBAL const BvhNode* nodes;
     GLOBAL const u32* triangles;
     upright_ray ray;
-    real edge_on;  // a product of an edge's ends is next to 0 where rounding may hide that the ends are in one plane
+    real edge_on;  // the product of an edge's two points below which rounding may hide that they are in one plane with
+                   // the ray
     slab_ray slab;
     bvh_cursor cursor;
     u32 next, last;  // triangles of the leaf that are left
-    u32 triangle;    // the one that was met; NONE: no more
-    real t;          // where
-    int clockwise;   // its corners, seen along the ray
+    u32 triangle;    // the triangle that the ray meets; NONE: there is none
+    real t;          // the distance of the hit
+    int clockwise;   // the turn of its corners, seen along the ray
     u32 near_face;   // the ray has come near a triangle that is seen edge-on,
     u32 near_edge;   // near a line through two corners
 } mesh_walk;
 
-// The product of two points, in their distance from a line through 0: they lie within twice MESH_RADIUS of it.
+// The product of two points that is next to 0, in units of their distance from a line through 0: they lie within twice
+// MESH_RADIUS of it.
 #define EDGE_ON (REAL(8) * MESH_RADIUS)
 
 FN mesh_walk start_mesh_walk(Geometry g, GLOBAL const u32* mesh, GLOBAL const real* place, ray3 r, beside b) {
@@ -70,7 +72,8 @@ FN mesh_walk next_triangle(mesh_walk w) {
     }
 }
 
-// The next triangle of the boxes that the ray meets, whether it meets the triangle or not; NONE: no more.
+// Moves to the next triangle of the boxes that the ray meets, whether it meets the triangle or not; NONE: there is
+// none.
 FN mesh_walk next_in_box(mesh_walk w) {
     if (w.next == w.last) {
         const u32 leaf = next_leaf(w.slab, w.nodes, &w.cursor);
@@ -91,11 +94,11 @@ FN beside find_triangles(Geometry g, SolidRecord solid, ray3 r) {
     return b;
 }
 
-// The square of a cosine. Along a triangle with a smaller one the ray would slide back, and off it: the step moves its
-// end less.
+// The square of a cosine. Along a triangle with a smaller cosine the ray would slide back, and off it: there the step
+// moves its boundary less.
 #define SLIDES REAL(0x1p-14)
 
-// Where the ray as it is meets the plane of a triangle that it meets aside of a face.
+// The distance where the unmoved ray meets the plane of a triangle that it meets aside of a face.
 RARE_FN real moved_back(mesh_walk w, beside b, GLOBAL const real* place, ray3 r) {
     const vec3 n = triangle_normal(w.vertices, w.triangles + 3 * (size_t)w.triangle);
     const vec3 d = w.ray.ray.d;
@@ -114,7 +117,8 @@ FN u32 mesh_collect(Geometry g, SolidRecord solid, ray3 r, crossings c, beside b
         w = next_triangle(w);
         if (w.triangle == NONE) break;
         if (b.step) w.t = moved_back(w, b, place, r);
-        // Counterclockwise from outside is clockwise from within, as a ray on its way out sees it.
+        // A triangle whose corners turn counterclockwise from outside is clockwise from within, for a ray on its way
+        // out.
         leaves = facing != 0 && (w.clockwise != 0) == (facing == 1);
         if (leaves && w.t >= c.t_min) ++outs;
         c = cross(c, w.t, leaves ? w.triangle | LEAVES : w.triangle);
@@ -123,7 +127,8 @@ FN u32 mesh_collect(Geometry g, SolidRecord solid, ray3 r, crossings c, beside b
     return facing ? close_marked_crossings(c, outs) : close_crossings(c);
 }
 
-// Against the ray where it goes in, along it where it goes out: the triangles may face either way.
+// The normal of a triangle: against the ray where it goes in, along it where it goes out. The triangles may face either
+// way.
 FN vec3 mesh_normal(Geometry g, GLOBAL const u32* mesh, GLOBAL const real* place, ray3 r, u32 surface) {
     GLOBAL const u32* corners = mesh + MESH_TRIANGLES + 3 * (size_t)(surface & ~LEAVES);
     vec3 n = triangle_normal(g.reals + mesh[MESH_VERTICES], corners);

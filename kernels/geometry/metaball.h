@@ -1,17 +1,19 @@
-// Metaball. Parameters: affine (12; locally distances are as the fields want them, and everything lies within
-// 1 of the origin), method, threshold, faint, and for each point x, y, z, then two of its field phi of v, the square of
-// the distance:
+// Metaball. Parameters: affine (12; local distances are scaled for the fields, and everything lies within 1 of the
+// origin), method, threshold, faint, and for each point x, y, z, then two parameters of its field phi of v, the square
+// of the distance:
+//
 //   0  (1 - b v)^2 while b v < 1                  unused, b
 //   1  a / v                                      a, unused
 //   2  2^(a - b v) while a - b v > faint          a, b
-// Words: how many points, where in inner_nodes the hierarchy over the balls that they reach begins and how many nodes
-// that has (0: none). Surface 0.
+//
+// Words: the number of points, the position in inner_nodes of the hierarchy over the balls in which their fields are
+// not 0, and the number of its nodes (0: none). Surface 0.
 //
 //   F = threshold - sum of phi < 0
 //
-// Along the ray v = m + (u - u0)^2 for each point, so its range over a piece is known exactly; phi and its derivatives
-// by v are monotone. The ranges of F, F' and F'' are sums of ranges; pieces are walked as in superell.h. Points whose
-// balls the piece does not meet are left out of the sums, so a ray past n balls takes n log n steps.
+// Along the ray v = m + (u - u0)^2 for each point, so its range over an interval is known exactly; phi and its
+// derivatives by v are monotone. The ranges of F, F' and F'' are sums of ranges; intervals are walked as in superell.h.
+// Points whose balls the interval does not meet are left out of the sums, so a ray past n balls takes n log n steps.
 #ifndef CSGRT_GEOMETRY_METABALL_H
 #define CSGRT_GEOMETRY_METABALL_H
 
@@ -23,19 +25,20 @@
 
 #define METABALL_REACH2            \
     BY_PRECISION(1.0001, 1.000001, \
-                 1.000001)  // the searched piece is a little larger than the solid, so its ends are outside
-#define METABALL_LEAST BY_PRECISION(0x1p-18, 0x1p-45, 0x1p-90)  // of the piece
-// Halvings that decide nothing, for the solid and for each point, before the least piece is METABALL_COARSER times as
-// large: where F is 0 all along the ray but for rounding, halving would not end. What lies behind is looked at still.
+                 1.000001)  // the searched interval is a little larger than the solid, so both its limits are outside
+#define METABALL_LEAST BY_PRECISION(0x1p-18, 0x1p-45, 0x1p-90)  // of the interval
+// The number of halvings that decide nothing, for the solid and for each point, before the least interval becomes
+// METABALL_COARSER times as large. Where F is 0 all along the ray but for rounding, halving would not end otherwise.
+// The rest of the ray is still searched.
 #define METABALL_STEPS 500
 #define METABALL_POINT_STEPS 64
 #define METABALL_COARSER 32
 #define METABALL_NOISE BY_PRECISION(1e-5, 1e-14, 1e-32)  // in thresholds
 #define METABALL_TURN_STEPS (sizeof(real) == 16 ? 120 : 60)
 #define METABALL_ROOT_STEPS (sizeof(real) == 16 ? 240 : 120)
-#define METABALL_SETTLED BY_PRECISION(1e-7, 1e-16, 1e-34)  // a root; Newton's last step
-#define METABALL_POINTS 15                                 // where they begin
-#define METABALL_POINT 5                                   // reals
+#define METABALL_SETTLED BY_PRECISION(1e-7, 1e-16, 1e-34)  // the last step of Newton's method at a root
+#define METABALL_POINTS 15                                 // where the points begin
+#define METABALL_POINT 5                                   // reals a point
 
 typedef struct {
     GLOBAL const real* points;
@@ -94,7 +97,7 @@ FN metaball_ray metaball_ray_of(Geometry g, SolidRecord solid, vec3 o, vec3 d) {
     return l;
 }
 
-// The points whose fields reach a piece of the ray, or more of them, in order.
+// The points whose fields are not 0 in an interval of the ray, or more points, in order.
 typedef struct {
     bvh_cursor cursor;
     single from, to;
@@ -125,7 +128,7 @@ FN u32 metaball_next(metaball_ray l, metaball_walk* w) {
     return w->next++;
 }
 
-// Of one point: where along the ray it is nearest, and the square of that distance.
+// One point's nearest position along the ray, and the square of its distance there.
 typedef struct {
     real at, least;
 } metaball_pass;
@@ -160,8 +163,8 @@ FN metaball_point metaball_at(metaball_ray l, real u) {
 }
 
 #define METABALL_UNDECIDED 0
-#define METABALL_MONOTONE 1  // or free of zeros
-#define METABALL_BENT 2      // turns once at most
+#define METABALL_MONOTONE 1  // or without zeros
+#define METABALL_BENT 2      // at most one turning point
 
 FN int metaball_look(metaball_ray l, real a, real b) {
     metaball_walk w = metaball_near(l, a, b);
@@ -188,8 +191,8 @@ FN int metaball_look(metaball_ray l, real a, real b) {
     return range_has_0(bend) ? METABALL_UNDECIDED : METABALL_BENT;
 }
 
-// The root between a and b, where F changes its sign once: Newton's method, and halving where that leaves the bracket
-// or does not halve its own step in two.
+// The root between a and b, where F changes its sign once: Newton's method, and halving where a step leaves the bracket
+// or does not halve the step before.
 FN real metaball_root(metaball_ray l, metaball_point a, metaball_point b) {
     real low = a.u, high = b.u, u = REAL(0.5) * (low + high), last = high - low, before = last;
     u32 negative = a.value < 0;
@@ -212,7 +215,7 @@ FN real metaball_root(metaball_ray l, metaball_point a, metaball_point b) {
     return u;
 }
 
-// Between a and b, of one sign, F bends towards 0: see superell_turn.
+// The turning point between a and b, where F has one sign and bends towards 0: see superell_turn.
 FN metaball_point metaball_turn(metaball_ray l, metaball_point a, metaball_point b) {
     u32 falling = a.slope < 0, negative = a.value < 0;
     metaball_point m = a;

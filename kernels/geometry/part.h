@@ -1,21 +1,21 @@
 // Particle: two balls on the local z axis and the cone that touches both. Parameters: affine (12, a similarity), then
-// z0, r0, z1, r1 of the balls, the cone's radius m0 + m1 z, and from which z to which it runs: between the circles
-// where it touches the balls. No cone (low > high): one ball holds the other.
+// z0, r0, z1, r1 of the balls, the cone's radius m0 + m1 z, and the range of z in which the cone runs: between the
+// circles where it touches the balls. No cone (low > high): one ball holds the other.
 //
 //         .-""-._____
-//        /   :       ``.        It is convex: along a ray the least of the pieces' ins and the greatest of their outs
-//       (    : z0   :z1 )       are its own. The cone's ends lie inside the balls; where one is met first all the same,
-//        \   :_____ ..'         by rounding, it is at the very circle, and counts as the ball's.
+//        /   :       ``.        The solid is convex: the least in and the greatest out of its parts along a ray are its
+//       (    : z0   :z1 )       own. The cone's caps lie inside the balls. If rounding lets a ray meet a cap first, the
+//        \   :_____ ..'         point lies at the very circle, and counts as the ball's.
 //         `-..-'
 //
-// Its normal turns without a jump, so it has one surface, 0. A particle that ends in a point has it as its local
-// origin.
+// Its normal turns without a jump, so it has one surface, 0. A particle that ends in a point has this point as its
+// local origin.
 #ifndef CSGRT_GEOMETRY_PART_H
 #define CSGRT_GEOMETRY_PART_H
 
 #include "tgc.h"
 
-// The one segment around `s` and all of `h`.
+// The one segment around `s` and all segments of `h`.
 FN span hull_of(span s, segments h) {
     if (h.count == 0) return s;
     s.low = real_min(s.low, h.in0);

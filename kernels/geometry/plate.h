@@ -1,4 +1,4 @@
-// Triangles with thickness: every one that the ray meets is a segment of its own; they may overlap.
+// Plate: triangles with thickness. Every triangle that the ray meets is a segment of its own; segments may overlap.
 //
 //            n |   / ray
 //     ---------|--/---------  before / cos
@@ -8,8 +8,8 @@
 // Seen along the ray, a plate ends at a line: an edge of the surface, or an edge whose two triangles lie to one side of
 // it. A ray through such a line runs in the plane of the ray and the line, as in a flat face of a solid (beside.h).
 //
-// Parameters: those of the place, as triangle.h has them, then SKIN: how thick along the ray, in the world, triangles
-// without thickness are. Words: PLATE_*, then the mesh's. Surfaces as in mesh.h.
+// Parameters: those of the transform, as triangle.h has them, then SKIN: how thick along the ray, in the world,
+// triangles without thickness are. Words: PLATE_*, then the mesh's. Surfaces as in mesh.h.
 #ifndef CSGRT_GEOMETRY_PLATE_H
 #define CSGRT_GEOMETRY_PLATE_H
 
@@ -17,16 +17,16 @@
 
 #define PLATE_SKIN 12  // among the parameters
 
-#define PLATE_EXTENTS 0    // where in `reals`: before and behind for each triangle
+#define PLATE_EXTENTS 0    // position in `reals`: before and behind for each triangle
 #define PLATE_ALONG_RAY 1  // 1: measured along the ray
-#define PLATE_ACROSS 2     // where in `words`: for each edge of each triangle the corner of its other triangle, or NONE
+#define PLATE_ACROSS 2     // position in `words`: for each edge of each triangle its other triangle's corner, or NONE
 #define PLATE_MESH 3
 
-// Nothing that is met at a smaller cosine has a thickness that makes sense.
+// The least cosine: at a smaller one the thickness along the ray has no meaning.
 #define PLATE_FLATTEST BY_PRECISION(1e-5, 1e-9, 1e-9)
 
-// Where a plate begins and ends that is met at w.t; empty: nowhere, or before t_min. A ray that grazes a plate stays in
-// it for long, and far beyond the solid's box, as in BRL-CAD (Frame.whole_lines).
+// The segment of a plate that the ray meets at w.t; empty: the ray misses it, or it lies before t_min. A ray that
+// grazes a plate stays in it for long, and far beyond the solid's box, as in BRL-CAD (Frame.whole_lines).
 FN span plate_span(mesh_walk w, GLOBAL const u32* words, GLOBAL const real* extents, real skin, real t_min) {
     real before = extents[2 * (size_t)w.triangle], behind = extents[2 * (size_t)w.triangle + 1];
     real speed = real_sqrt(dot3(w.ray.ray.d, w.ray.ray.d));
@@ -50,7 +50,7 @@ FN span plate_span(mesh_walk w, GLOBAL const u32* words, GLOBAL const real* exte
     return s;
 }
 
-// Edge k of the triangle, corner k to the next, if the ray meets it and plates end there, as the ray sees them.
+// Adds edge k of the triangle, from corner k to the next, if the ray meets it and plates end there, seen along the ray.
 FN beside add_end_of_plates(beside b, mesh_walk w, u32 k, GLOBAL const u32* across, real rounding,
                             GLOBAL const real* place, ray3 r) {
     GLOBAL const u32* corners = w.triangles + 3 * (size_t)w.triangle;
@@ -69,7 +69,7 @@ FN beside add_end_of_plates(beside b, mesh_walk w, u32 k, GLOBAL const u32* acro
     return add_local_face(b, normal_of_line(w.ray, direction), place, r);
 }
 
-// The planes through the ray and lines at which plates end, if the ray meets these.
+// The planes through the ray and the lines at which plates end, if the ray meets these lines.
 FN beside find_ends_of_plates(Geometry g, SolidRecord solid, ray3 r) {
     GLOBAL const u32* words = g.words + solid.first_word;
     GLOBAL const real* place = g.reals + solid.first_real;

@@ -1,12 +1,12 @@
-// Roots, and the pieces of a ray on which a polynomial is negative (inside).
+// Polynomials: their roots, and the intervals of a ray on which they are negative (inside).
 #ifndef CSGRT_GEOMETRY_POLYNOMIAL_H
 #define CSGRT_GEOMETRY_POLYNOMIAL_H
 
 #include "quadratic.h"
 
-// Where q(u) = a u^2 + 2 b u + c is negative, within `s` (in t = shift + u): up to two pieces.
-// `discriminant` is b^2 - a c, which the caller knows in a form that does not cancel. The roots are taken in the form
-// that never subtracts near-equal numbers.
+// The intervals within `s` (in t = shift + u) where q(u) = a u^2 + 2 b u + c is negative: up to two. `discriminant` is
+// b^2 - a c, which the caller knows in a form that does not cancel. The roots are taken in the form that never
+// subtracts near-equal numbers.
 //
 //   a > 0:  between the roots          a < 0:  outside them, or everywhere
 FN segments quadratic_inside(real a, real b, real c, real discriminant, real shift, span s, u32 surface) {
@@ -63,11 +63,11 @@ FN quartic derivative(quartic p) {
     return d;
 }
 
-// The one root of p between a and b, where p is of different signs: Halley's steps from u on, or from the middle, kept
-// within the bracket by bisection. With p = f0 + f1 v + f2 v^2 + f3 v^3 + ... around u, the root lies at v = -f0 / f1,
-// less some v^2 f2 / f1, which Halley's step knows of. What it leaves is of the size of v^3 ((f2 / f1)^2 - f3 / f1): if
-// that is no more than rounding, it is there, and another step would only measure rounding. 100 steps halve any bracket
-// of doubles to neighbours; Halley takes about 3.
+// The one root of p between a and b, where p has different signs. Halley's steps start from u, or from the middle, and
+// bisection keeps them within the bracket. With p = f0 + f1 v + f2 v^2 + f3 v^3 + ... around u, the root lies at v =
+// -f0 / f1, less some v^2 f2 / f1, which Halley's step includes. The error that the step leaves is of the size of v^3
+// ((f2 / f1)^2 - f3 / f1). If this is no more than rounding, the root is found, and another step would only measure
+// rounding. 100 steps halve any bracket of doubles to neighbours; Halley's method takes about 3.
 #define ROOT_STEPS (sizeof(real) == 16 ? 240 : 100)
 #define ROOT_PRECISION BY_PRECISION(0x1p-25, 0x1p-54, 0x1p-114)
 FN real bracketed_root(quartic p, real a, real b, int negative_at_a, real u) {
@@ -98,10 +98,10 @@ FN real bracketed_root(quartic p, real a, real b, int negative_at_a, real u) {
     return u;
 }
 
-// How many roots p has between low and high, if that is certain at a glance: 0, 1, or 2, which `split` is between.
-// Else 3. The coefficients in Bernstein form change their sign as often as p does, or two, four times more often
-// (Descartes' rule; Lane and Riesenfeld 1981); those that rounding might have turned around say nothing. Where the
-// straight lines between them change it, the roots are not far: `near`.
+// The number of roots of p between low and high, if it is certain at once: 0, 1, or 2 with `split` between them. Else
+// 3. The coefficients in Bernstein form change their sign as often as p does, or two or four times more often
+// (Descartes' rule; Lane and Riesenfeld 1981). Coefficients whose sign may be rounding's decide nothing. The straight
+// lines between the coefficients cross 0 near the roots: `near`.
 FN int certain_roots(quartic p, real low, real high, real* split, real* near) {
     const real w = high - low, reach = real_max(real_abs(low), real_abs(high));
     const real doubt =
@@ -139,8 +139,8 @@ FN int certain_roots(quartic p, real low, real high, real* split, real* near) {
     return real_abs(at_split) > doubt && (at_split < 0) != (b[0] < 0) ? 2 : 3;
 }
 
-// Where p has its turning points in (low, high): ascending, at most 3. Those of the derivative are the roots of a
-// quadratic, so each is alone in its bracket.
+// The turning points of p in (low, high): ascending, at most 3. The turning points of the derivative are the roots of a
+// quadratic, so each root of the derivative is alone in its bracket.
 NOINLINE_FN int turning_points(quartic p, real low, real high, real* turns) {
     const quartic d1 = derivative(p);
     const real a = REAL(3) * d1.c[3], b = d1.c[2], c = d1.c[1];  // the second derivative: a u^2 + 2 b u + c
@@ -166,9 +166,9 @@ NOINLINE_FN int turning_points(quartic p, real low, real high, real* turns) {
     return count;
 }
 
-// Where p changes sign in (low, high): ascending, at most 4. Negative counts as inside; zero does not. What is certain
-// at a glance needs no more; else the roots are bracketed by those of the derivative, so every bracket holds a monotone
-// piece, and the signs at the ends decide about the root. Counts and signs thus always agree.
+// The points where p changes its sign in (low, high): ascending, at most 4. Negative counts as inside; zero does not.
+// certain_roots() answers most cases. Else the turning points bracket the roots: every bracket holds a monotone part,
+// and the signs at both sides decide about the root. Counts and signs thus always agree.
 FN int sign_changes(quartic p, real low, real high, real* roots) {
     real knots[5], near[2];
     int count = 0, i, negative = quartic_at(p, low) < 0;
@@ -185,7 +185,7 @@ FN int sign_changes(quartic p, real low, real high, real* roots) {
     return count;
 }
 
-// The inside pieces of `s` (bounded, in u + shift), given the sign changes in it.
+// The inside intervals of `s` (bounded, in u + shift), given the sign changes in it.
 FN segments spans_between(span s, int inside, const real* roots, int count, u32 surface) {
     segments h = no_segments();
     real low = s.low;

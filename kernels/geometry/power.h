@@ -6,7 +6,7 @@
 
 #include "../shared/base.h"
 
-// x > 0 and finite.
+// log2(x), for x > 0 and finite.
 FN real log_2(real x) {
     int exponent = real_exponent(x);
     real m = real_scaled(x, -exponent);  // 1 <= m < 2
@@ -71,10 +71,10 @@ FN real exp_2(real y) {
     return real_scaled(REAL(1) + sum, (int)whole);
 }
 
-// x^y for x >= 0 and y > 0.
+// x^y, for x >= 0 and y > 0.
 FN real real_power(real x, real y) { return x > 0 ? exp_2(y * log_2(x)) : REAL(0); }
 
-// 0 for x <= 0.
+// x^(1/3); 0 for x <= 0.
 FN real cube_root(real x) {
     real c;
     if (!(x > 0)) return 0;

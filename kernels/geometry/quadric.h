@@ -1,5 +1,5 @@
-// Solids that are one quadric cut by planes: epa, hyp, rpc, rhc. Parameters: affine (12), then qx, qy, qz, linear,
-// free:
+// Quadric: a solid that is one quadric cut by planes: epa, hyp, rpc, rhc. Parameters: affine (12), then qx, qy, qz,
+// linear, free:
 //
 //   qx x^2 + qy y^2 + qz z^2 + linear z + free < 0
 //
@@ -19,7 +19,7 @@
 #define QUADRIC_SURFACE 0
 #define QUADRIC_PLANES 1
 
-// The form of v and w with nothing cancelled: what its rounding is relative to.
+// The sum of the form's terms in v and w without their signs: the size to which rounding is relative.
 FN real quadric_size(GLOBAL const parameter* p, vec3 v, vec3 w) {
     return real_abs(p[12] * v.x * w.x) + real_abs(p[13] * v.y * w.y) + real_abs(p[14] * v.z * w.z);
 }
@@ -37,7 +37,8 @@ FN segments quadric_intersect(Geometry g, SolidRecord solid, ray3 r) {
     a = real_fma(qx * l.d.x, l.d.x, real_fma(qy * l.d.y, l.d.y, qz * l.d.z * l.d.z));
     b = real_fma(qx * l.o.x, l.d.x, real_fma(qy * l.o.y, l.d.y, qz * l.o.z * l.d.z));
     c = real_fma(qx * l.o.x, l.o.x, real_fma(qy * l.o.y, l.o.y, qz * l.o.z * l.o.z));
-    // b^2 - a c of the squares alone is -(qx qy (o x d)z^2 + ...), by Lagrange's identity: nothing large cancels.
+    // The discriminant b^2 - a c of the squares alone is -(qx qy (o x d)z^2 + ...), by Lagrange's identity: nothing
+    // large cancels.
     xy = difference_of_products(l.o.x, l.d.y, l.o.y, l.d.x);
     yz = difference_of_products(l.o.y, l.d.z, l.o.z, l.d.y);
     zx = difference_of_products(l.o.z, l.d.x, l.o.x, l.d.z);
@@ -53,7 +54,7 @@ FN segments quadric_intersect(Geometry g, SolidRecord solid, ray3 r) {
             of_squares + real_abs(half_rate) * (REAL(2) * real_abs(b) + real_abs(half_rate)) + real_abs(a * rest);
         b = b + half_rate;
         c = c + rest;
-        // Along a straight line of the surface a, b and c vanish together: then they are the better witnesses.
+        // Along a straight line of the surface a, b and c vanish together: then they give the better discriminant.
         discriminant = real_abs(b) * all_b + real_abs(a) * all_c + real_abs(c) * all_a < REAL(0.0625) * of_squares
                            ? difference_of_products(b, b, a, c)
                            : discriminant;

@@ -1,8 +1,7 @@
-// Four ways to solve the quartics of tor, eto and tapered cones, to be compared with each other. The first is the one
-// to use.
+// Quartic: four ways to solve the quartics of tor, eto and tapered cones, for comparison. The first is the default.
 //
 //   QUARTIC_BRACKETED  polynomial.h, with the origin at the closest approach
-//   QUARTIC_UNSHIFTED  the same with the origin where the ray's is: coefficients lose their digits as it moves away
+//   QUARTIC_UNSHIFTED  the same with the ray's own origin: coefficients lose their digits as it moves away
 //   QUARTIC_FERRARI    the closed form, ferrari.h
 //   QUARTIC_YUKSEL     roots between those of the derivative, to a stated error (Yuksel 2022, High-Performance
 //                      Polynomial Root Finding for Graphics), whose cubic is deflated once a root of it is known
@@ -13,14 +12,15 @@
 #include "ferrari.h"
 #include "polynomial.h"
 
-// Where Yuksel's search ends, in units of the solid: half the digits, as in his own code; the solid polishes its roots.
+// The error at which Yuksel's search ends, in units of the solid: half the digits, as in his own code; the solid
+// polishes its roots.
 #define YUKSEL_ERROR BY_PRECISION(6e-4, 6e-7, 6e-7)
 #define YUKSEL_STEPS 100
 
-// A solid polishes a root on a form of its own by steps up to this, in its own units.
+// The longest step with which a solid polishes a root on a form of its own, in the solid's units.
 #define POLISH_STEP BY_PRECISION(1e-3, 1e-6, 1e-6)
 
-// Newton from the middle of [a, b], kept in what is left of it, until a step is no longer than the error.
+// Newton's method from the middle of [a, b], within the rest of the bracket, until a step is no longer than the error.
 FN real yuksel_root(quartic p, quartic slope, real a, real b, int negative_at_a) {
     real u = REAL(0.5) * (a + b);
     int step;
@@ -54,7 +54,7 @@ FN int quadratic_between(real a, real b, real c, real low, real high, real* root
     return count;
 }
 
-// Roots of the derivative, a cubic d with derivative e: the first by its bracket, the others of what is left of the
+// Roots of the derivative, a cubic d with derivative e: the first by its bracket, the others as roots of the deflated
 // cubic.
 FN int yuksel_turns(quartic d, quartic e, real low, real high, real* turns) {
     real knots[4];
@@ -88,7 +88,7 @@ FN int yuksel_roots(quartic p, real low, real high, real* roots) {
     return count;
 }
 
-// Where p changes its sign in (low, high): ascending, at most 4.
+// The points where p changes its sign in (low, high): ascending, at most 4.
 FN int quartic_roots(u32 method, quartic p, real low, real high, real* roots) {
     if (method == QUARTIC_FERRARI) return ferrari_roots(p, low, high, roots);
     if (method == QUARTIC_YUKSEL) return yuksel_roots(p, low, high, roots);

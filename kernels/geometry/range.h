@@ -1,4 +1,5 @@
-// Ranges of numbers, as far as the closed-form solids need them: what a quantity may be on a piece of a ray.
+// Ranges: interval arithmetic, as far as some solids need it: the values that a quantity may have on an interval of a
+// ray.
 #ifndef CSGRT_GEOMETRY_RANGE_H
 #define CSGRT_GEOMETRY_RANGE_H
 
@@ -8,7 +9,7 @@ typedef struct {
     real low, high;
 } range;
 
-// Of a quantity that is monotone between two points, given its values there.
+// The range of a quantity that is monotone between two points, from its values there.
 FN range range_between(real a, real b) {
     range r;
     r.low = real_min(a, b);

@@ -1,10 +1,10 @@
-// A sketch turned about an axis, all round or by an angle.
-// Parameters: affine (12); local z is the axis, local x the direction where the turn begins; then which way it is cut.
-// Words: the sketch, its x the distance from the axis, its y the height. Planes: those of the cut, then those of lines
-// across the axis, which come first in the sketch. Surfaces: 0 and 1 the cut, then what the sketch's pieces sweep.
+// Revolve: a sketch turned about an axis, all round or by an angle. Parameters: affine (12); local z is the axis, local
+// x the direction where the turn begins; then REVOLVE_CUT. Words: the sketch; its x is the distance from the axis, its
+// y the height. Planes: the two of the cut, then those of lines across the axis, which come first in the sketch.
+// Surfaces: 0 and 1 the cut, then the surfaces that the sketch's lines and curves sweep.
 //
-// Each crossing of what the outline sweeps all round (hyperbola.h) turns inside into outside, and the two half planes
-// where the turn begins and ends cut the solid out of that.
+// Each crossing of the surface that the outline sweeps all round (hyperbola.h) turns inside into outside. The two half
+// planes where the turn begins and ends cut the solid out of it.
 #ifndef CSGRT_GEOMETRY_REVOLVE_H
 #define CSGRT_GEOMETRY_REVOLVE_H
 
@@ -13,7 +13,7 @@
 #include "hyperbola.h"
 #include "plane.h"
 
-#define REVOLVE_CUT 12   // where that parameter is (shared/layout.h has its values)
+#define REVOLVE_CUT 12   // position of this parameter (shared/layout.h has its values)
 #define REVOLVE_FACES 2  // surfaces of the cut
 #define FLAT_SLACK           \
     BY_PRECISION(1e-5, 1e-9, \
@@ -27,8 +27,8 @@ FN cut meet_profile(cut k, GLOBAL const real* p, u32 degree, u32 stride, axis_ra
     return k;
 }
 
-// A line across the axis sweeps a plane, which may be another solid's, too: its t is the one to take, unless the ray
-// all but runs along it.
+// Adds the plane that a line across the axis sweeps. The plane may be another solid's, too: its t is used, unless the
+// ray nearly runs along it.
 FN cut meet_flat_line(cut k, GLOBAL const real* p, axis_ray a, Geometry g, u32 plane, ray3 r, u32 surface) {
     profile_walk w;
     radial_root root;
@@ -43,11 +43,12 @@ FN cut meet_flat_line(cut k, GLOBAL const real* p, axis_ray a, Geometry g, u32 p
 
 FN u32 revolve_cut_faces(GLOBAL const real* p) { return p[REVOLVE_CUT] == REAL(REVOLVE_WHOLE) ? 0u : REVOLVE_FACES; }
 
-// Nothing lies between the two sides of one plane, not even a ray that runs within it.
+// Are the planes of the cut the two sides of one plane? Then nothing lies between them, not even a ray within the
+// plane.
 FN int nothing_between(Geometry g, u32 index) { return (g.words[index] ^ g.words[index + 1]) == 1u; }
 
-// Of the two planes of the cut, the stretch between them. A ray aside of the plane that it runs in is on one side of
-// it all the way.
+// The interval of the ray between the two planes of the cut. A ray that is moved aside of such a plane is on one side
+// of it all the way.
 FN span between_faces(Geometry g, u32 index, GLOBAL const real* p, ray3 r, beside b) {
     span s = whole_line();
     u32 i;
@@ -100,7 +101,7 @@ FN crossings revolve_cross(Geometry g, SolidRecord solid, ray3 r, crossings c, b
     return end_cut(k);
 }
 
-// The local normal of what a piece sweeps, where the ray crosses it nearest to t.
+// The local normal of the surface that a line or curve sweeps, where the ray crosses it nearest to t.
 FN vec3 profile_normal(GLOBAL const real* p, u32 degree, u32 stride, axis_ray a, vec3 at, real t) {
     profile_walk w;
     radial_root root;
@@ -113,8 +114,8 @@ FN vec3 profile_normal(GLOBAL const real* p, u32 degree, u32 stride, axis_ray a,
             profile_point c = profile_at(p, degree, stride, root.at);
             real rho = real_sqrt(real_fma(at.x, at.x, at.y * at.y));
             nearest = off;
-            // Across the tangent, times the distance to the axis. On the axis: along it, what lies across it has a
-            // normal there.
+            // The vector across the tangent, times the distance to the axis. On the axis it is along the axis, since
+            // only a curve that runs across the axis has a normal there.
             n = rho > 0 ? make_vec3(c.dz * at.x, c.dz * at.y, -c.dr * rho) : make_vec3(0, 0, -c.dr);
         }
     }

@@ -1,4 +1,4 @@
-// What every solid answers: its segments along a ray, in ascending order.
+// Segments: every solid's answer, its segments along a ray, in ascending order.
 //
 //        in0      out0         in1      out1
 //   -----|=========|-----------|=========|-----> t        count = 2
@@ -13,14 +13,14 @@ typedef struct {
     tag count;  // segments: 0, 1 or 2
     real in0, out0, in1, out1;
     tag in0_surface, out0_surface, in1_surface, out1_surface;
-    lane_mask touched;  // may the ray touch the solid only? touch.h looks more closely
+    lane_mask touched;  // the ray may only touch the solid; touch.h tests more exactly
 } segments;
 
-// A piece of the ray, with the surfaces that bound it.
+// An interval of the ray, with the surfaces that bound it.
 typedef struct {
     real low, high;
     tag low_surface, high_surface;
-    lane_mask touched;  // the ray runs in one of its planes
+    lane_mask touched;  // the ray runs in one of the solid's planes
 } span;
 
 FN segments no_segments(void) {
@@ -41,7 +41,7 @@ FN span whole_line(void) {
     return s;
 }
 
-// Appends [in, out] unless it is empty. A ray that only touches has no segment there.
+// Appends [in, out] unless it is empty. A ray that only touches the solid has no segment there.
 FN segments append(segments h, real in, tag in_surface, real out, tag out_surface) {
     const lane_mask first = in < out && h.count == 0, second = in < out && h.count == 1;
     h.in0 = first ? in : h.in0;

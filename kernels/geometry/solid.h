@@ -1,6 +1,5 @@
-// Any solid of at most two segments, and any solid's normal: the place that knows all types (with collect.h). A program
-// holds only the types that its scene has
-// (-DCSGRT_SOLIDS=<bits>): code that is not there costs no registers.
+// Solid: the segments of any solid of at most two, and any solid's normal. This file and collect.h know all types. A
+// program holds only the types that its scene has (-DCSGRT_SOLIDS=<bits>): code that is left out costs no registers.
 #ifndef CSGRT_GEOMETRY_SOLID_H
 #define CSGRT_GEOMETRY_SOLID_H
 
@@ -29,7 +28,7 @@ FN segments intersect(Geometry g, SolidRecord solid, ray3 r) {
     return closed_form_intersect(g, solid, r);
 }
 
-// Along the outward normal of a solid where its `surface` is hit at t, of any length.
+// A vector along the outward normal of a solid where its `surface` is hit at t, of any length.
 FN vec3 normal_of_any_length(Geometry g, SolidRecord solid, ray3 r, real t, u32 surface) {
     vec3 n;
     r = ray_at(solid, r);
@@ -70,7 +69,7 @@ FN vec3 normal_of_any_length(Geometry g, SolidRecord solid, ray3 r, real t, u32 
     return n;
 }
 
-// The outward unit normal. Where a surface has none (an apex), against the ray.
+// The outward unit normal. Where a surface has no normal (an apex), a unit vector against the ray.
 FN vec3 normal_at(Geometry g, SolidRecord solid, ray3 r, real t, u32 surface) {
     return unit_or_against(normal_of_any_length(g, solid, r, t, surface), r.d);
 }

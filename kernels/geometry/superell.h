@@ -2,18 +2,18 @@
 //
 //   G = (|x|^p + |y|^p)^q + |z|^r - 1 < 0        p = 2 / e, q = e / n, r = 2 / n
 //
-// Along a ray each of |x|, |y|, |z| is linear between the points where x, y or z is 0: there its powers are monotone,
-// so their ranges over a piece are those at its ends, and with them the ranges of G and of its slope. With p q = r, s =
-// |x|^p + |y|^p and Lagrange's identity the second derivative is
+// Along a ray each of |x|, |y|, |z| is linear between the points where x, y or z is 0. There its powers are monotone,
+// so their ranges over an interval are those of its two limits, and with them the ranges of G and of its slope. With p
+// q = r, s = |x|^p + |y|^p and Lagrange's identity the second derivative is
 //
 //   G'' / r = (r-1) (s^(q-2) (x^(p-1) x' + y^(p-1) y')^2 + z^(r-2) z'^2) + (p-1) s^(q-2) (x y)^(p-2) (x y' - x' y)^2
 //
 // where x y' - x' y is the same all along the ray. If p-1 and r-1 are not of opposite signs (e, n <= 2: the solid is
-// convex; e, n >= 2: a star), G'' has one sign, and G turns once at most in the whole part. Else pieces are walked from
-// the front, as wide as can be decided: G has no 0 in it, or its slope has none, and then the signs of G at its ends
-// tell whether it holds a root, or its second derivative has none, and then G turns once at most. Where nothing helps
-// down to SUPERELL_LEAST of the part (a ray that touches within rounding, or runs within a flat side), the signs at the
-// ends decide as well; and after SUPERELL_STEPS pieces, at any width.
+// convex; e, n >= 2: a star), G'' has one sign, and G has at most one turning point in the whole part. Else intervals
+// are walked from the front, as wide as one of these is certain: G has no 0; or its slope has no 0, and then the signs
+// of G at both limits tell whether there is a root; or its second derivative has no 0, and then G has at most one
+// turning point. If nothing is certain down to SUPERELL_LEAST of the part (a ray that touches within rounding, or runs
+// within a flat side), or after SUPERELL_STEPS intervals, the signs at the limits decide, too.
 #ifndef CSGRT_GEOMETRY_SUPERELL_H
 #define CSGRT_GEOMETRY_SUPERELL_H
 
@@ -24,14 +24,14 @@
 
 #define SUPERELL_MARGIN            \
     BY_PRECISION(1.0001, 1.000001, \
-                 1.000001)  // the searched piece is a little larger than the solid, so its ends are outside
+                 1.000001)  // the searched interval is a little larger than the solid, so both its limits are outside
 #define SUPERELL_LEAST BY_PRECISION(0x1p-18, 0x1p-45, 0x1p-90)
 #define SUPERELL_STEPS 500
 #define SUPERELL_NOISE BY_PRECISION(1e-5, 1e-14, 1e-32)  // |G| beyond this is no rounding
 #define SUPERELL_TURN_STEPS (sizeof(real) == 16 ? 120 : 60)
 #define SUPERELL_ROOT_STEPS (sizeof(real) == 16 ? 240 : 120)
 
-// One local coordinate along the ray, as |rate| |u - zero| where it is 0 in the searched piece.
+// One local coordinate along the ray: |rate| |u - zero| if it is 0 in the searched interval.
 typedef struct {
     real at, rate, zero;
     u32 has_zero;
@@ -48,7 +48,7 @@ FN superell_axis superell_axis_of(real at, real rate, real low, real high) {
 FN real superell_size(superell_axis a, real u) {
     return a.has_zero ? real_abs(a.rate) * real_abs(u - a.zero) : real_abs(real_fma(a.rate, u, a.at));
 }
-// How it changes where u lies.
+// The rate of change of the coordinate's absolute value at u.
 FN real superell_rate(superell_axis a, real u) {
     real value = a.has_zero ? a.rate * (u - a.zero) : real_fma(a.rate, u, a.at);
     return value < 0 ? -a.rate : a.rate;
@@ -68,13 +68,13 @@ typedef struct {
     real by_xx, by_yy, by_zz;
 } superell_point;
 
-// x^(p-1), given x^p.
+// x^(p-1), from x^p.
 FN real superell_lower(real x, real power_of_x, real p) {
     if (x > 0) return power_of_x / x;
     return p > 1 ? REAL(0) : p < 1 ? REAL_INFINITY : REAL(1);
 }
 
-// `rate`: how |x|, |y|, |z| change.
+// The values at u. `rate`: the rates of change of |x|, |y|, |z|.
 FN superell_point superell_at(superell_ray l, vec3 rate, real u) {
     superell_point a;
     real x = superell_size(l.x, u), y = superell_size(l.y, u), z = superell_size(l.z, u);
@@ -93,7 +93,7 @@ FN superell_point superell_at(superell_ray l, vec3 rate, real u) {
     outer = real_power(s, l.q);
     a.value = outer + (a.z - REAL(1));
     if (x == 0 && y == 0) {
-        // On the axis of z: from here on s^q is that of the rates times a distance to the power r.
+        // A ray through the axis of z: from here on s^q is the rates' s^q times a distance to the power r.
         real away = real_power(real_power(real_abs(rate.x), l.p) + real_power(real_abs(rate.y), l.p), l.q);
         a.slope = product_or_0(rate.x + rate.y < 0 ? -away : away, superell_lower(0, 0, l.r));
     } else {
@@ -105,10 +105,10 @@ FN superell_point superell_at(superell_ray l, vec3 rate, real u) {
 }
 
 #define SUPERELL_UNDECIDED 0
-#define SUPERELL_MONOTONE 1  // or free of zeros
-#define SUPERELL_BENT 2      // bent to one side: turns once at most
+#define SUPERELL_MONOTONE 1  // or without zeros
+#define SUPERELL_BENT 2      // bent to one side: at most one turning point
 
-// What is known of G between a and b.
+// The knowledge of G between a and b: SUPERELL_MONOTONE, SUPERELL_BENT, or neither.
 FN int superell_look(superell_ray l, vec3 rate, superell_point a, superell_point b) {
     real low_s = real_min(a.x, b.x) + real_min(a.y, b.y), high_s = real_max(a.x, b.x) + real_max(a.y, b.y);
     real low_power = real_power(low_s, l.q), high_power = real_power(high_s, l.q);
@@ -130,7 +130,7 @@ FN int superell_look(superell_ray l, vec3 rate, superell_point a, superell_point
     sum1 = real_max(x0, x1) + real_max(y0, y1);
     if (product_or_0(sum0, sum0 > 0 ? outer0 : outer1) + real_min(z0, z1) > 0) return SUPERELL_MONOTONE;
     if (product_or_0(sum1, sum1 > 0 ? outer1 : outer0) + real_max(z0, z1) < 0) return SUPERELL_MONOTONE;
-    // Its derivative over r, as above.
+    // The derivative of the slope over r, from the formula at the head of the file.
     square0 = sum0 > 0 ? sum0 * sum0 : sum1 < 0 ? sum1 * sum1 : REAL(0);
     square1 = real_max(sum0 * sum0, sum1 * sum1);
     by0 = superell_lower(low_s, by0, l.q - REAL(1));
@@ -152,8 +152,8 @@ FN int superell_look(superell_ray l, vec3 rate, superell_point a, superell_point
     return SUPERELL_UNDECIDED;
 }
 
-// The root between a and b, where G changes its sign once: Newton, kept within the bracket by bisection, and halving
-// whenever two steps did not.
+// The root between a and b, where G changes its sign once: Newton's method, kept within the bracket by bisection, and
+// halving whenever two steps did not halve it.
 FN real superell_root(superell_ray l, vec3 rate, superell_point a, superell_point b) {
     real low = a.u, high = b.u, u = REAL(0.5) * (low + high), width = REAL_INFINITY;
     u32 negative = a.value < 0;
@@ -177,8 +177,8 @@ FN real superell_root(superell_ray l, vec3 rate, superell_point a, superell_poin
     return u;
 }
 
-// Between a and b, of one sign, G bends towards 0: a point where it has the other sign; or where it turns, or any point
-// if the tangents at the ends tell that it does not reach 0.
+// The point between a and b that decides, where G has one sign at both and bends towards 0: a point where G has the
+// other sign, or its turning point, or any point if the tangents at a and b tell that G does not reach 0.
 FN superell_point superell_turn(superell_ray l, vec3 rate, superell_point a, superell_point b) {
     u32 falling = a.slope < 0, negative = a.value < 0;
     superell_point m = a;
@@ -234,7 +234,7 @@ FN crossings superell_part(crossings c, superell_ray l, real low, real high, rea
     return c;
 }
 
-// [low, high] cut to |at + rate u| <= limit.
+// The part of [low, high] with |at + rate u| <= limit.
 FN span superell_clip(span s, real at, real rate, real limit) {
     if (rate != 0) {
         real first = (-limit - at) / rate, second = (limit - at) / rate;
@@ -266,8 +266,8 @@ FN crossings superell_cross(GLOBAL const real* p, ray3 r, crossings c) {
     ray.x = superell_axis_of(l.o.x, d.x, s.low, s.high);
     ray.y = superell_axis_of(l.o.y, d.y, s.low, s.high);
     ray.z = superell_axis_of(l.o.z, d.z, s.low, s.high);
-    // Through the z axis x and y are 0 at once. A bit apart, the slope of x where it is 0 alone would be infinite, in a
-    // G that is bent nowhere.
+    // On a ray through the z axis x and y are 0 at once. If the two zeros were a bit apart, the slope of x where x is 0
+    // alone would be infinite, though G is bent nowhere.
     if (ray.twist == 0 && d.x != 0 && d.y != 0) {
         ray.y.zero = ray.x.zero;
         ray.x.has_zero = ray.y.has_zero = ray.x.has_zero | ray.y.has_zero;
@@ -287,7 +287,7 @@ FN crossings superell_cross(GLOBAL const real* p, ray3 r, crossings c) {
     return c;
 }
 
-// On a cusp (a coordinate is 0, its exponent below 1) the mean of the normals on both sides.
+// The normal. On a cusp (a coordinate is 0, its exponent below 1) it is the mean of the normals on both sides.
 FN vec3 superell_normal(GLOBAL const real* p, ray3 r, real t) {
     vec3 at = local_point(to_local(p, r), t), n;
     real x = real_abs(at.x), y = real_abs(at.y), z = real_abs(at.z), most;

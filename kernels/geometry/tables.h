@@ -1,4 +1,4 @@
-// The tables that solids live in, and what is known of their types.
+// Tables: the arrays that hold solids' data, and properties of the types of solids.
 #ifndef CSGRT_GEOMETRY_TABLES_H
 #define CSGRT_GEOMETRY_TABLES_H
 
@@ -9,13 +9,13 @@ typedef struct {
     GLOBAL const real* reals;
     GLOBAL const PlaneRecord* planes;
     GLOBAL const u32* words;
-    GLOBAL const BvhNode* inner_nodes;  // hierarchies inside solids of many parts
+    GLOBAL const BvhNode* inner_nodes;  // hierarchies inside solids of many elements
 #ifndef __OPENCL_VERSION__
-    u32 quartic;  // the host chooses as it runs; a program for a device has one method, so that it holds no other
+    u32 quartic;  // the host chooses at run time; a program for a device is compiled for one method
 #endif
 } Geometry;
 
-// How quartics are solved; quartic.h.
+// Methods for quartics; quartic.h.
 #define QUARTIC_BRACKETED 0
 #define QUARTIC_UNSHIFTED 1
 #define QUARTIC_FERRARI 2
@@ -29,15 +29,15 @@ typedef struct {
 #define QUARTIC_OF(g) (g).quartic
 #endif
 
-// Solids of which a ray may have more than two segments.
+// Types of solids with more than two segments on some rays.
 #define MANY_SEGMENTS                                                                                          \
     (1u << SOLID_EXTRUDE | 1u << SOLID_REVOLVE | 1u << SOLID_MESH | 1u << SOLID_SUPERELL | 1u << SOLID_PLATE | \
      1u << SOLID_HRT | 1u << SOLID_METABALL)
 
-// Solids of which it has one at most.
+// Types of solids with at most one segment on any ray.
 #define ONE_SEGMENT (1u << SOLID_ELL | 1u << SOLID_ARB | 1u << SOLID_HALF | 1u << SOLID_PART)
 
-// What a ray knows of the solid that it is put to.
+// The ray for one solid, with the solid's center.
 FN ray3 ray_at(SolidRecord solid, ray3 r) {
 #ifdef CSGRT_EYE_RELATIVE
     r.center = make_wide3(solid.center[0], solid.center[1], solid.center[2]);

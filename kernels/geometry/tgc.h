@@ -2,17 +2,19 @@
 // tapers. Parameters: affine (12), a0, a1, b0, b1, kind, radius2. Planes: 0 base, 1 top. Surfaces: 0 side, 1 base, 2
 // top.
 //
-//   local z = -1 at the base, +1 at the top (a cone with an apex: 0 at the apex); semi-axes a(z) = a0 + a1 z along x,
-//   b(z) = b0 + b1 z along y kind 0 (a = b):  x^2 + y^2 - a^2 < 0             a quadric kind 1:          x^2 b^2 + y^2
-//   a^2 - a^2 b^2 < 0  a quartic radius2: the square of a radius, local, around everything
+//   local z = -1 at the base, +1 at the top (a cone with an apex: 0 at the apex)
+//   semi-axes a(z) = a0 + a1 z along x, b(z) = b0 + b1 z along y
+//   kind 0 (a = b):  x^2 + y^2 - a^2 < 0                a quadric
+//   kind 1:          x^2 b^2 + y^2 a^2 - a^2 b^2 < 0    a quartic
+//   radius2: the square of a radius, local, around everything
 #ifndef CSGRT_GEOMETRY_TGC_H
 #define CSGRT_GEOMETRY_TGC_H
 
 #include "cone.h"
 #include "quartic.h"
 
-// The piece of `s` within a round cone. A ray steeper than the cone (a < 0) meets both of its nappes, one root on each,
-// and m changes sign between them: the piece on which m > 0 is the cone's.
+// The part of `s` within a round cone. A ray steeper than the cone (a < 0) meets both of its nappes, one root on each,
+// and m changes sign between them: the part with m > 0 is the cone's.
 FN segments cone_inside(local_ray l, quadratic f, real m0, real m1, span s) {
     if (f.a < 0) {
         real u = -m0 / m1;
@@ -35,12 +37,14 @@ FN segments cone_inside(local_ray l, quadratic f, real m0, real m1, span s) {
     return quadratic_inside(f.a, f.b, f.c, f.discriminant, l.shift, s, TGC_SIDE);
 }
 
-// Where an end is an edge, or all but one, a ray that passes near it is taken from its closest approach to the edge:
-// there its coefficients vanish with the quartic, so near the edge it is as exact relative to its own size as
-// elsewhere. From the usual origin all that is left there is rounding. Near: in units of the larger semi-axis.
+// The distance from an edge, in units of the larger semi-axis, below which a ray counts as near. Where a cone ends in
+// an edge, or nearly so, such a ray is taken from its closest approach to the edge. There its coefficients vanish with
+// the quartic, so near the edge the quartic is as exact relative to its own size as elsewhere. From the usual origin
+// only rounding is left there.
 #define EDGE_REACH REAL(0.125)
 
-// How the ray passes the line where a semi-axis m0 + m1 u, and the coordinate o + d u along it, are 0: nearest at u.
+// The closest approach of the ray to the line where a semi-axis m0 + m1 u, and the coordinate o + d u along it, are 0:
+// nearest at u.
 typedef struct {
     real u, distance2;
 } edge_pass;
@@ -57,7 +61,8 @@ FN edge_pass edge_pass_of(real o, real d, real m0, real m1, span s) {
     return e;
 }
 
-// How far along the unit direction d the origin is to be moved for that. `s`: where the ray is between the ends.
+// The distance along the unit direction d by which the origin is moved for an edge. `s`: the interval between base and
+// top.
 NOINLINE_FN real edge_shift(GLOBAL const real* p, vec3 o, vec3 d, span s) {
     const edge_pass a = edge_pass_of(o.x, d.x, real_fma(p[13], o.z, p[12]), p[13] * d.z, s);
     const edge_pass b = edge_pass_of(o.y, d.y, real_fma(p[15], o.z, p[14]), p[15] * d.z, s);
@@ -66,8 +71,8 @@ NOINLINE_FN real edge_shift(GLOBAL const real* p, vec3 o, vec3 d, span s) {
     return a.distance2 <= b.distance2 ? a.u : b.u;
 }
 
-// What of `s` has a positive semi-axis m0 + m1 u. The ends' planes are computed in another way: by rounding a ray along
-// an edge could meet the mirrored body beyond it.
+// The part of `s` with a positive semi-axis m0 + m1 u. The planes of base and top are computed in another way: by
+// rounding a ray along an edge could meet the mirrored body beyond it.
 FN span on_this_side(span s, real m0, real m1) {
     const real u = -m0 / m1;
     if (m1 > 0) s.low = real_max(s.low, u);
@@ -75,12 +80,13 @@ FN span on_this_side(span s, real m0, real m1) {
     return s;
 }
 
-// Is a semi-axis next to nothing at an end?
+// Is a semi-axis nearly 0 at base or top?
 FN int has_edge(GLOBAL const real* p) {
     return real_min(p[12] - real_abs(p[13]), p[14] - real_abs(p[15])) < EDGE_REACH;
 }
 
-// The quartic is solved on a bounded piece, with u in units of the direction's length.
+// The segments in a tapered cone. The quartic is solved on a bounded interval, with u in units of the direction's
+// length.
 FN segments tapered_inside(u32 method, GLOBAL const real* p, local_ray l, span s) {
     real length = real_sqrt(dot3(l.d, l.d)), shift = 0;
     real a0, a1, b0, b1;

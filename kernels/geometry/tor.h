@@ -3,30 +3,30 @@
 //
 //   (|p|^2 - 1 - ratio^2)^2 + 4 (z^2 - ratio^2) < 0
 //
-// a form whose terms stay small near a thin tube. The quartic along the ray is solved on a piece of it (torus.h),
-// outside which it is positive; each root is then polished on (rho - 1)^2 + z^2 - ratio^2, evaluated at the point
-// itself, which has none of the expanded form's cancellation.
+// The terms of this form stay small near a thin tube. The quartic along the ray is solved on an interval (torus.h)
+// outside which it is positive. Each root is then polished on (rho - 1)^2 + z^2 - ratio^2, evaluated at the point
+// itself: this form has none of the expanded form's cancellation.
 //
-// Where the hole is all but closed, the surface comes near the centre, and all that is left of these terms there is
-// rounding. With gap = 1 - ratio^2 the same two functions are
+// Where the hole is nearly closed, the surface comes near the centre, and there only rounding is left of these terms.
+// With gap = 1 - ratio^2 the same two functions are
 //
 //   (|p|^2 + gap)^2 - 4 rho^2        |p|^2 + gap - 2 rho
 //
-// whose terms vanish with f at the pinch of a horn torus. The origin is the ray's closest approach to just that point,
-// so the coefficients along the ray vanish likewise, and near it the quartic is as exact relative to its own size as
-// elsewhere.
+// Their terms vanish with f at the pinch of a horn torus. The origin is the ray's closest approach to this very point,
+// so the coefficients along the ray vanish likewise. So near the pinch the quartic is as exact relative to its own size
+// as elsewhere.
 #ifndef CSGRT_GEOMETRY_TOR_H
 #define CSGRT_GEOMETRY_TOR_H
 
 #include "quartic.h"
 #include "torus.h"
 
-// A ray that passes the centre within PINCH_REACH of a torus whose hole is no wider than 1 - PINCH_RATIO: no other
-// meets the surface where its quartic's usual terms cancel by more than a digit or two.
+// The limits of the pinch: a ray that passes the centre within PINCH_REACH, of a torus whose hole is no wider than 1 -
+// PINCH_RATIO. Other rays meet the surface where the usual terms of the quartic cancel by a digit or two at most.
 #define PINCH_REACH REAL(0.2)
 #define PINCH_RATIO REAL(0.75)
 
-// (rho - 1)^2 + z^2 - ratio^2 at a point, and its rate of change along d.
+// The value of (rho - 1)^2 + z^2 - ratio^2 at a point, and its rate of change along d.
 typedef struct {
     real value, slope;
 } tor_form;
@@ -45,8 +45,8 @@ FN tor_form tor_at(vec3 o, vec3 d, real u, real ratio, int pinched) {
     return f;
 }
 
-// Newton from a root of the quartic, whose error is at most about a tenth of POLISH_STEP (a grazed thin tube). A step
-// is taken if it is small and brings the point nearer to the surface.
+// Newton's steps from a root of the quartic, whose error is at most about a tenth of POLISH_STEP (a grazed thin tube).
+// A step is taken if it is small and brings the point nearer to the surface.
 FN real tor_polish(vec3 o, vec3 d, real u, real ratio, int pinched) {
     tor_form f = tor_at(o, d, u, ratio, pinched);
     int step;
@@ -62,7 +62,7 @@ FN real tor_polish(vec3 o, vec3 d, real u, real ratio, int pinched) {
     return u;
 }
 
-// So short that the ray may only touch the torus there.
+// Is the segment so short that the ray may only touch the torus there?
 FN int is_short(real in, real out, real length) { return (out - in) * length < REAL(0x1p-6); }
 
 FN segments tor_pieces(u32 method, GLOBAL const real* p, ray3 r) {

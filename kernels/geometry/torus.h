@@ -1,4 +1,5 @@
-// Where a ray may meet a torus, and the torus's normal. Parameters, planes and surfaces are the tor's (tor.h).
+// Torus: the interval where a ray may meet a torus, and the torus's normal. Parameters, planes and surfaces are the
+// tor's (tor.h).
 #ifndef CSGRT_GEOMETRY_TORUS_H
 #define CSGRT_GEOMETRY_TORUS_H
 
@@ -7,10 +8,10 @@
 
 #define TOR_MARGIN                 \
     BY_PRECISION(1.0001, 1.000001, \
-                 1.000001)  // the piece is a little larger than the torus, so that its ends are outside
+                 1.000001)  // the interval is a little larger than the torus, so that both its limits are outside
 
-// The piece of a ray inside the slab |z| <= ratio and the sphere |p| <= 1 + ratio, between `low` and `high` along the
-// unit direction d. Empty: low >= high.
+// The interval of a ray inside the slab |z| <= ratio and the sphere |p| <= 1 + ratio, between `low` and `high` along
+// the unit direction d. Empty: low >= high.
 typedef struct {
     local_ray l;
     vec3 d;
@@ -34,7 +35,7 @@ FN tor_piece tor_piece_of(u32 method, GLOBAL const parameter* p, ray3 r) {
     s.length = real_sqrt(dot3(s.l.d, s.l.d));
     s.d = scale(s.l.d, REAL(1) / s.length);
     middle = quartic_middle(method, s.l.o, s.d);
-    reach = real_sqrt(outer * outer - (dot3(s.l.o, s.l.o) - middle * middle)) * TOR_MARGIN;  // of a miss: not a number
+    reach = real_sqrt(outer * outer - (dot3(s.l.o, s.l.o) - middle * middle)) * TOR_MARGIN;  // a miss makes it NaN
     z0 = (-tube - s.l.o.z) / s.d.z;
     z1 = (tube - s.l.o.z) / s.d.z;
     crosses = s.d.z != 0;
@@ -42,12 +43,12 @@ FN tor_piece tor_piece_of(u32 method, GLOBAL const parameter* p, ray3 r) {
     last = real_max(z0, z1);
     s.low = middle - reach;
     s.high = middle + reach;
-    // Asked so that what is not a number stays: the ray misses the sphere, whatever it meets of the slab.
+    // The comparisons keep NaN: the ray misses the sphere, whatever it meets of the slab.
     s.low = crosses && first > s.low ? first : s.low;
     s.high = crosses && last < s.high ? last : s.high;
     outside = !(s.low < s.high) || (!crosses && real_abs(s.l.o.z) > ratio);
-    // Most rays through the box of a thin ring pass within it. The distance from the axis is greatest at an end of the
-    // piece.
+    // Most rays through the box of a thin ring pass within the ring. The distance from the axis is greatest at a limit
+    // of the interval.
     if (ratio < 1)
         outside =
             outside || real_max(axis_distance2(s.l.o, s.d, s.low), axis_distance2(s.l.o, s.d, s.high)) < inner * inner;
@@ -55,7 +56,7 @@ FN tor_piece tor_piece_of(u32 method, GLOBAL const parameter* p, ray3 r) {
     return s;
 }
 
-// Where the ray is on the inner side of the planes that cut a bend.
+// The interval of the ray on the inner side of the planes that cut a bend.
 FN span tor_bend(Geometry g, SolidRecord solid, ray3 r) {
     span s = whole_line();
     u32 i;

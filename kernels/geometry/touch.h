@@ -1,15 +1,15 @@
-// A ray that touches a solid all along a segment, as far as rounding lets one say: it runs in a face or along a wall,
-// or comes no deeper than rounding. Both ends of the segment are marked with the sides to which the ray would miss the
-// solid (MISSED_...). Here and not in each solid, which asks for it seldom: what is rare costs a GPU's registers and a
-// processor's vectors wherever it stands.
+// Touch: a ray that touches a solid all along a segment, as far as rounding lets csgrt tell. It runs in a face or along
+// a wall, or comes no deeper than rounding. Both boundaries of the segment are marked with the sides to which the ray
+// would miss the solid (MISSED_...). The code is here and not in each solid, which needs it seldom: inlined rare code
+// costs a GPU's registers and a processor's vectors.
 #ifndef CSGRT_GEOMETRY_TOUCH_H
 #define CSGRT_GEOMETRY_TOUCH_H
 
 #include "cone.h"
 #include "plane.h"
 
-// By how much rounding of the ray's and of the solid's numbers may move each coordinate of a point of the local ray,
-// and of a surface of about size 1. Across a thin solid it is far more than along it.
+// The distances by which rounding of the ray's and of the solid's numbers may move each coordinate of a point of the
+// local ray, and of a surface of about size 1. Across a thin solid it is far more than along it.
 FN vec3 local_roundings(GLOBAL const parameter* p, ray3 r) {
     const vec3 o = narrow(r.o), c = narrow(affine_center(p, r));
     const real x = real_abs(o.x) + real_abs(c.x), y = real_abs(o.y) + real_abs(c.y), z = real_abs(o.z) + real_abs(c.z);
@@ -29,15 +29,15 @@ FN vec3 cross3(vec3 a, vec3 b) {
                      difference_of_products(a.x, b.y, a.y, b.x));
 }
 
-// The directions in which a ray in a face is moved: above, and left. Left is the same for the ray from the other end.
+// The directions in which a ray in a face is moved: above, and left. Left is the same for the reversed ray.
 FN vec3 above_faces(void) { return make_vec3(REAL(1), REAL(ABOVE_Y), REAL(ABOVE_Z)); }
 FN vec3 left_of_ray(ray3 r) {
     const vec3 d = scale(r.d, REAL(1) / real_sqrt(dot3(r.d, r.d)));
     return cross3(dot3(d, above_faces()) < 0 ? scale(d, REAL(-1)) : d, above_faces());
 }
 
-// On which sides a ray misses what it touches where the outward normal is n. The two faces of a plane have opposite
-// sides, also where the plane holds one of the directions.
+// The sides on which a ray misses a face that it touches. `n`: the face's outward normal. The two faces of a plane have
+// opposite sides, also where the plane holds one of the directions.
 FN u32 missed_sides(vec3 n, ray3 r) {
     const real above = dot3(n, above_faces()), left = dot3(n, left_of_ray(r));
     if (above >= 0) return MISSED_ABOVE | (left >= 0 ? MISSED_LEFT : MISSED_RIGHT);
@@ -50,7 +50,7 @@ FN u32 missed_of_plane(PlaneRecord plane, u32 flipped, ray3 r) {
     return flipped ? MISSED & ~missed : missed;
 }
 
-// Of planes of a solid that the ray runs in.
+// The sides beyond those planes of a solid in which the ray runs.
 FN u32 missed_of_planes(Geometry g, u32 first, u32 count, ray3 r) {
     u32 i, missed = 0;
     for (i = first; i < first + count; ++i) {
@@ -74,12 +74,13 @@ FN segments mark_ell(GLOBAL const real* p, ray3 r, segments h) {
     return REAL(1) - real_sqrt(dot3(q, q)) <= local_rounding(p, r) ? mark(h, missed_sides(affine_normal(p, q), r)) : h;
 }
 
-// How far a point is within the side of a round cone; negative: outside.
+// The depth of a point within the side of a round cone; negative: outside.
 FN real depth_in_side(GLOBAL const real* p, vec3 at) {
     return real_fma(p[13], at.z, p[12]) - real_sqrt(real_fma(at.x, at.x, at.y * at.y));
 }
 
-// A ray along the side is within it from end to end, on whichever side of it rounding has put the ray.
+// Marks a segment along the side of a cone. The ray is within it from base to top, on whichever side of the wall
+// rounding has put the ray.
 FN segments mark_side(GLOBAL const real* p, ray3 r, span ends, segments h) {
     const local_ray l = to_local(p, r);
     const real most = local_rounding(p, r);
@@ -92,7 +93,7 @@ FN segments mark_side(GLOBAL const real* p, ray3 r, span ends, segments h) {
     return mark(h, missed_sides(affine_normal(p, make_vec3(at.x, at.y, -real_fma(p[13], at.z, p[12]) * p[13])), r));
 }
 
-// Of a torus, between `in` and `out`.
+// The sides on which a ray misses a torus that it touches between `in` and `out`.
 FN u32 missed_of_tor(GLOBAL const real* p, ray3 r, real in, real out) {
     const vec3 at = local_point(to_local(p, r), REAL(0.5) * (in + out));
     const real rho = real_sqrt(real_fma(at.x, at.x, at.y * at.y)), radial = rho - REAL(1);
@@ -100,7 +101,7 @@ FN u32 missed_of_tor(GLOBAL const real* p, ray3 r, real in, real out) {
     return missed_sides(affine_normal(p, make_vec3(at.x * radial / rho, at.y * radial / rho, at.z)), r);
 }
 
-// What is met of a solid that the ray may touch only, marked if it does.
+// The segments of a solid that the ray may only touch, marked if it does.
 RARE_FN segments mark_touched(Geometry g, SolidRecord solid, ray3 r, segments h) {
     GLOBAL const real* p = g.reals + solid.first_real;
     if (solid.type == SOLID_ELL) h = mark_ell(p, r, h);

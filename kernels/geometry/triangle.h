@@ -1,8 +1,8 @@
-// A ray and the triangles of one mesh, watertight: what bounds a volume is crossed an even number of times, whatever
-// the rounding, through edges and vertices too.
+// Triangle: a ray and the triangles of one mesh, watertight. The boundary of a volume is crossed an even number of
+// times, whatever the rounding, through edges and vertices too.
 //
-// The ray is turned into the axis that it runs along most and sheared upright (Woop, Benthin, Wald 2013), and so are
-// the vertices, each by the same arithmetic for all its triangles:
+// The axes are turned so that the ray runs mostly along z, and sheared so that it is upright (Woop, Benthin, Wald
+// 2013). A vertex is transformed by the same arithmetic for all its triangles:
 //
 //        y |    c                 The ray is the point 0. It meets a triangle whose three edges all have it on the
 //          |   / \                same side: sign(a x b) = sign(b x c) = sign(c x a).
@@ -20,21 +20,22 @@
 
 #define MESH_RADIUS REAL(1)
 
-// Words of a mesh, which all its places share; then three vertices a triangle, in the order of the hierarchy's leaves.
-#define MESH_VERTICES 0  // where in `reals` they are
-#define MESH_NODES 1     // where in `inner_nodes` its hierarchy is
+// Words of a mesh, which all its instances share; then three vertices a triangle, in the order of the hierarchy's
+// leaves.
+#define MESH_VERTICES 0  // position of the vertices in `reals`
+#define MESH_NODES 1     // position of the hierarchy in `inner_nodes`
 #define MESH_NODE_COUNT 2
-#define MESH_FACING 3     // 0: of no account; else corners run counterclockwise (1) or clockwise (2), seen from outside
+#define MESH_FACING 3     // 0: any; else corners run counterclockwise (1) or clockwise (2), seen from outside
 #define MESH_TRIANGLES 4  // the first triangle's word
 
 typedef struct {
     local_ray ray;
-    int axis;      // along which it runs most
-    real slope_x;  // by which the others are sheared
+    int axis;      // the axis along which the ray runs most
+    real slope_x;  // the shears of the other two axes
     real slope_y;
 } upright_ray;
 
-// The axis comes last, the others before it in their cyclic order.
+// The coordinates with the axis last, the others before it in their cyclic order.
 FN vec3 turned(vec3 v, int axis) {
     return axis == 2 ? v : axis == 1 ? make_vec3(v.z, v.x, v.y) : make_vec3(v.y, v.z, v.x);
 }
@@ -51,7 +52,8 @@ FN upright_ray make_upright(local_ray l) {
     return u;
 }
 
-// So small a coordinate is rounding, and products of two of them would leave the range in which they are exact.
+// The coordinate, or 0 if it is so small that it is rounding: products of two such would leave the range in which they
+// are exact.
 FN real flushed(real x) { return real_abs(x) < REAL(0x1p-50) ? REAL(0) : x; }
 
 // A point seen along the ray: (x, y) is 0 on it, z measures along its main axis.
@@ -62,8 +64,8 @@ FN vec3 seen_along(upright_ray u, vec3 point) {
 
 FN vec3 upright_vertex(upright_ray u, GLOBAL const real* v) { return seen_along(u, make_vec3(v[0], v[1], v[2])); }
 
-// On which side of the edge from a to b the ray passes: 1, -1, or 0 for an edge that has no length.
-// `product` is a x b; its rate of change as 0 moves to (e, e^2) decides where it is 0.
+// The side of the edge from a to b on which the ray passes: 1, -1, or 0 for an edge that has no length. `product` is a
+// x b. Where it is 0, its rate of change as 0 moves to (e, e^2) decides.
 FN int side_of_edge(vec3 a, vec3 b, real product) {
     real rate = product != 0 ? product : a.y != b.y ? a.y - b.y : b.x - a.x;
     return rate > 0 ? 1 : rate < 0 ? -1 : 0;
@@ -71,13 +73,13 @@ FN int side_of_edge(vec3 a, vec3 b, real product) {
 
 typedef struct {
     int hit;
-    real t;         // the ray's own
+    real t;         // along the ray
     int clockwise;  // seen along the ray
-    int edge_on;    // the products of its edges' ends are all next to 0: it is seen edge-on, or very small
-    int edge;       // one of them is
+    int edge_on;    // the products of its edges' points are all nearly 0: it is seen edge-on, or very small
+    int edge;       // the product of one edge is
 } triangle_hit;
 
-// `edge_on`: which product is next to 0.
+// Intersects the ray and the triangle. `edge_on`: products below it count as nearly 0.
 FN triangle_hit meet_triangle(upright_ray u, real edge_on, GLOBAL const real* vertices, GLOBAL const u32* corners) {
     triangle_hit h;
     vec3 a = upright_vertex(u, vertices + 3 * (size_t)corners[0]);
@@ -101,7 +103,7 @@ FN triangle_hit meet_triangle(upright_ray u, real edge_on, GLOBAL const real* ve
     return h;
 }
 
-// How far off a corner of a face may be seen that is meant to be in a plane with the ray.
+// The distance by which rounding may move a corner, seen along the ray, off a plane that holds the ray.
 FN real seen_rounding(upright_ray u, GLOBAL const real* p, ray3 r) {
     const vec3 e = turned(local_roundings(p, r), u.axis);
     return IN_FACE * real_max(real_fma(real_abs(u.slope_x), e.z, e.x), real_fma(real_abs(u.slope_y), e.z, e.y));
@@ -126,7 +128,7 @@ RARE_FN beside add_triangle(beside b, upright_ray u, GLOBAL const real* vertices
     return b;
 }
 
-// Across the triangle, in the mesh's own space.
+// The vector across the triangle, in the mesh's own space.
 FN vec3 triangle_normal(GLOBAL const real* vertices, GLOBAL const u32* corners) {
     GLOBAL const real* a = vertices + 3 * (size_t)corners[0];
     GLOBAL const real* b = vertices + 3 * (size_t)corners[1];

@@ -1,5 +1,5 @@
-// What packets have in place of one ray's functions for solids that need more than closed forms. Where they do, a ray
-// is UNDECIDED, and goes alone.
+// Closed form: a packet's functions in place of one ray's for solids that need more than closed forms. Where they need
+// more, a ray is UNDECIDED, and goes alone.
 //
 // Compiled for packets alone, between packet/begin.h and packet/end.h.
 #ifndef CSGRT_PACKET_CLOSED_FORM_H
@@ -8,7 +8,7 @@
 #include "../geometry/cone.h"
 #include "../geometry/torus.h"
 
-// A packet's count of segments where this file does not know it.
+// The count of segments of a ray that this file cannot decide.
 #define UNDECIDED 3u
 
 FN segments undecided_where(lane_mask mask, segments h) {
@@ -16,13 +16,13 @@ FN segments undecided_where(lane_mask mask, segments h) {
     return h;
 }
 
-// As one ray's (polynomial.h), where a > 0.
+// The piece of a ray inside a quadratic, as in polynomial.h, where a > 0.
 FN segments quadratic_inside(real a, real b, real c, real discriminant, real shift, span s, u32 surface) {
     return undecided_where(s.low < s.high && !(a > 0), between_roots(a, b, c, discriminant, shift, s, surface));
 }
 
-// As one ray's (tgc.h), of those that are less steep than the cone; and the others', as far as no quartic is to be
-// solved.
+// The segments of a tgc, as in tgc.h, for rays less steep than the cone. The other rays are undecided where a quartic
+// has to be solved.
 FN segments tgc_intersect(Geometry g, SolidRecord solid, ray3 r) {
     GLOBAL const parameter* p = g.reals + solid.first_real;
     span s = between_ends(g, solid, r);
@@ -39,7 +39,7 @@ FN segments tgc_intersect(Geometry g, SolidRecord solid, ray3 r) {
     return undecided_where(s.low < s.high, no_segments());
 }
 
-// As far as no quartic is to be solved.
+// The segments of a tor; a ray is undecided where a quartic has to be solved.
 FN segments tor_intersect(Geometry g, SolidRecord solid, ray3 r) {
     const span s = tor_bend(g, solid, r);
     tor_piece piece;

@@ -1,4 +1,4 @@
-// Closes what packet/begin.h opens: each name means one ray's type or function again.
+// End: closes the section that packet/begin.h opens. Each name means one ray's type or function again.
 #ifndef CSGRT_PACKET_END_H
 #define CSGRT_PACKET_END_H
 

@@ -1,4 +1,4 @@
-// What a work-item of first_hits.cl draws where it is a packet of rays: two rows of four pixels.
+// First hits of a packet a work-item (first_hits.cl), as processors draw them: two rows of four pixels.
 #ifndef CSGRT_PACKET_FIRST_HITS_PACKET_H
 #define CSGRT_PACKET_FIRST_HITS_PACKET_H
 
@@ -37,7 +37,7 @@ FN void start_packet(packet* p, __global const Frame* f, pixel_position first) {
     }
 }
 
-// Of the rays of the hit mask those that hit before their ranges end.
+// The rays of the hit mask that hit before their ranges end.
 FN u32 hits_before(const packet* p, u32 hit_mask) {
     real before[PACKET];
     u32 k;
@@ -48,7 +48,7 @@ FN u32 hits_before(const packet* p, u32 hit_mask) {
 }
 
 // Draws the pixels from `first` on that are in the picture; the channels of the first begin at `picture`. Returns the
-// overflow mask: the rays of which nothing is drawn. *hit_mask: those that see anything.
+// overflow mask: the rays of which nothing is drawn. *hit_mask: the rays that see anything.
 FN u32 draw(__global const Frame* f, scene_tables s, appearance_tables a, __global const TileNode* list,
             pixel_position first, __global float* picture, u32* hit_mask) {
     const u32 within = rays_inside(f, first);

@@ -1,5 +1,5 @@
-// Finds the first claimed partitions of a packet's rays, as boolean/first_hit.h does for one ray. The rays go through
-// their tile's nodes together, and each ray passes its own events.
+// Hits: finds the first claimed partitions of a packet's rays, as boolean/first_hit.h does for one ray. The rays go
+// through their tile's nodes together, and each ray passes its own events.
 //
 // Masks of rays are as in packet/solids.h; the hit mask stands for the rays that hit a box, or whose first hit is
 // known.
@@ -8,7 +8,8 @@
 
 #include "pending_solids.h"
 
-// The active rays that hit the leaves of a subtree take up their solids, or have them wait. Returns the overflow mask.
+// Has the active rays that hit the leaves of a subtree add the leaves' solids, or hold them pending. Returns the
+// overflow mask.
 FN u32 take_subtree(packet* p, scene_tables s, u32 root, u32 active_mask, pending_solids* pending) {
     bvh_cursor cursor = bvh_below(s.nodes, root);
     u32 overflow_mask = 0, hit_mask, leaf;
@@ -21,7 +22,7 @@ FN u32 take_subtree(packet* p, scene_tables s, u32 root, u32 active_mask, pendin
     return overflow_mask;
 }
 
-// Finds the first hits of the active rays. Returns the hit mask; *overflow_mask: the rays of which nothing is known.
+// Finds the first hits of the active rays. Returns the hit mask; *overflow_mask: the rays without an answer.
 FN u32 first_hits_of(packet* p, __global const Frame* f, scene_tables s, __global const MaterialRecord* materials,
                      __global const TileNode* next, u32 active_mask, u32* overflow_mask) {
     const u32 near_scene = bits_of(p->slabs.hits_sphere);
@@ -35,7 +36,7 @@ FN u32 first_hits_of(packet* p, __global const Frame* f, scene_tables s, __globa
     do {
         u32 going;
         e = *next++;
-        // The rays whose next event nothing in this node can join. Behind the last node that is so for all rays.
+        // Rays whose next event no solid of this node can join. Behind the last node these are all rays.
         going = (e.node == NONE ? active_mask : bits_of(vload8(0, p->next_events) < e.entry)) & active_mask &
                 ~*overflow_mask & ~hit_mask;
         for (; going; going &= going - 1u) {
@@ -53,7 +54,7 @@ FN u32 first_hits_of(packet* p, __global const Frame* f, scene_tables s, __globa
             prefetch_node(s, next->node);
             *overflow_mask |= take_subtree(p, s, e.node, going, &pending);
         }
-        // The solids of later nodes are taken up with these, as long as no ray has an event to pass before.
+        // Solids of later nodes are added together with these, as long as no ray has an event to pass before.
         while (!are_enough(&pending) && e.node != NONE && next->node != NONE &&
                !(bits_of(vload8(0, p->next_events) < next->entry) & going)) {
             prefetch_node(s, next[1].node);

@@ -1,15 +1,15 @@
-// Packets of a list: eight rays in a row, each with its range.
+// Listed: packets of a list, eight rays in a row, each with its range.
 #ifndef CSGRT_PACKET_LISTED_H
 #define CSGRT_PACKET_LISTED_H
 
 #include "packet.h"
 
-// Eight rays, and which of them there are.
+// Eight rays, and a mask of the rays that exist.
 typedef struct {
     packet_world_ray rays;
     double8 t_min, t_max;
     u32 within;  // a mask
-    u32 number;  // of the first one of a picture
+    u32 number;  // of the first ray of a picture
 } ray_packet;
 
 FN ray_packet listed_packet(__global const Frame* f, __global const RayRecord* rays, u32 id) {

@@ -1,5 +1,5 @@
-// The closed-form solids once more, for a packet of eight rays side by side, on processors, whose instructions work
-// on vectors. A packet is two rows of four pixels of a tile, which meet fewer boxes and solids than one row of eight.
+// Packet: the closed-form solids once more, for eight rays side by side, on processors, whose instructions work on
+// vectors. A packet is two rows of four pixels of a tile, which meet fewer boxes and solids than one row of eight.
 // begin.h says how the source of one ray is compiled for a packet, and why the bits are the same.
 #ifndef CSGRT_PACKET_PACKET_H
 #define CSGRT_PACKET_PACKET_H
@@ -12,8 +12,8 @@
 
 #define PACKET 8u
 
-// Asks the processor for a line of memory ahead, in scenes larger than its caches. It does not wait, and any address
-// is harmless.
+// Prefetch: the processor loads a line of memory ahead, in scenes larger than its caches. It does not wait, and any
+// address is harmless.
 #ifdef CSGRT_PREFETCH
 #define prefetch_line(place) __builtin_prefetch((const void*)(size_t)(place))
 #else
@@ -53,14 +53,15 @@ FN int no_lane(long8 x) { return !any(x); }
 // Do packets know this type of solid?
 FN int takes_packets(SolidRecord solid) { return CLOSED_FORM_SOLIDS >> solid.type & 1u; }
 
-// What each ray meets of such a solid: a segment, none, or UNDECIDED, also for a ray that may only touch it.
+// The segments of such a solid: for each ray one, none, or UNDECIDED, also for a ray that may only touch it.
 FN packet_segments packet_intersect(Geometry g, SolidRecord solid, packet_ray3 r) {
     packet_segments h = closed_form_intersect(g, solid, r);
     h.count = h.touched ? (ulong8)UNDECIDED : h.count;
     return h;
 }
 
-// Along the outward normals where the rays hit one surface of such a solid at t. Returns 0 if the surface is a plane.
+// Vectors along the outward normals where the rays hit one surface of such a solid at t. Returns 0 if the surface is a
+// plane.
 FN int packet_normals(Geometry g, SolidRecord solid, packet_ray3 r, double8 t, u32 surface, packet_vec3* n) {
     surface &= ~MISSED;
     if (surface != 0 || solid.type == SOLID_ARB || solid.type == SOLID_HALF) return 0;
@@ -68,15 +69,15 @@ FN int packet_normals(Geometry g, SolidRecord solid, packet_ray3 r, double8 t, u
     return 1;
 }
 
-// Bit k: ray k.
+// The mask of a comparison: bit k for ray k.
 FN u32 bits_of(int8 x) {
     return (u32)((as_ulong(convert_char8(x)) & 0x8040201008040201ul) * 0x0101010101010101ul >> 56);
 }
 FN u32 bits_of(long8 x) { return bits_of(convert_int8(x)); }
 FN int8 of_bits(u32 bits) { return ((int8)((int)bits) & (int8)(1, 2, 4, 8, 16, 32, 64, 128)) != 0; }
 
-// Work-items have eight numbers (or places) in a row each, but the rays of a packet are two rows of four pixels of
-// the tile. The first ray's number, from the first of the eight; and how far ray k's is from there.
+// Numbers of rays. A work-item has eight numbers (or positions) in a row, but the rays of a packet are two rows of four
+// pixels of the tile. first_of_packet: the first ray's number. ray_of_packet: the distance of ray k's number from it.
 #define PACKET_ROW 4u
 FN u32 first_of_packet(u32 id) {
     const u32 within = id % (TILE * TILE) / PACKET;
@@ -84,13 +85,13 @@ FN u32 first_of_packet(u32 id) {
 }
 FN u32 ray_of_packet(u32 k) { return k / PACKET_ROW * TILE + k % PACKET_ROW; }
 
-// The rays through the pixels of the packet whose first, which is in the picture, is given.
+// The rays through the pixels of a packet. `first`: its first pixel, which is in the picture.
 FN packet_world_ray rays_through(__global const Frame* f, pixel_position first) {
     return view_ray(f, (double)first.x + (double8)(0, 1, 2, 3, 0, 1, 2, 3),
                     (double)first.y + (double8)(0, 0, 0, 0, 1, 1, 1, 1));
 }
 
-// The mask of the rays whose pixels are in the picture, too.
+// The mask of the rays whose pixels are in the picture.
 FN u32 rays_inside(__global const Frame* f, pixel_position first) {
     const u32 columns = f->screen.right - first.x,
               row = columns < PACKET_ROW ? (1u << columns) - 1u : (1u << PACKET_ROW) - 1u;
@@ -102,12 +103,12 @@ FN packet_slab_ray slabs_of(__global const Frame* f, packet_world_ray r, double8
                          t_min);
 }
 
-// As one ray's (traversal/bvh_cursor.h), for the active rays; *hit_mask: those of them that hit the leaf.
+// The next leaf, as for one ray (traversal/bvh_cursor.h), for the active rays; *hit_mask: the active rays that hit it.
 FN u32 next_leaf(packet_slab_ray s, __global const BvhNode* nodes, bvh_cursor* c, u32 active_mask, u32* hit_mask) {
     u32 leaf = 0;
     while (!leaf && bvh_goes_on(*c)) {
         BvhNode node;
-        // A loop of its own: what comes after a node that is missed is then loaded before it is known that it is.
+        // A loop of its own: the node after a missed box is then loaded before the test of the box is done.
         do {
             node = nodes[c->node];
             *hit_mask = bits_of(box_is_hit(s, node)) & active_mask;
@@ -121,7 +122,7 @@ FN u32 next_leaf(packet_slab_ray s, __global const BvhNode* nodes, bvh_cursor* c
     return leaf;
 }
 
-// The rays one by one.
+// The rays of a packet, each alone.
 typedef struct {
     real ox[PACKET], oy[PACKET], oz[PACKET], dx[PACKET], dy[PACKET], dz[PACKET];
 } packet_lanes;

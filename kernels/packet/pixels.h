@@ -1,11 +1,12 @@
-// From what a packet's rays see first to the channels of their pixels, as shading/pixel.h does for one ray.
+// Pixels: from the first hits of a packet's rays to the channels of their pixels, as shading/pixel.h does for one ray.
 #ifndef CSGRT_PACKET_PIXELS_H
 #define CSGRT_PACKET_PIXELS_H
 
 #include "hits.h"
 #include "../shading/pixel.h"
 
-// Along the outward normals of what the rays of the hit mask see first. The others look like the first of them.
+// Vectors along the outward normals at the first hits of the rays of the hit mask. The other rays have the normal of
+// the first of them.
 FN packet_vec3 seen_normals(const packet* p, Geometry g, u32 hit_mask, double8 t) {
     real x[PACKET], y[PACKET], z[PACKET];
     packet_vec3 n;
@@ -54,7 +55,7 @@ FN packet_vec3 seen_normals(const packet* p, Geometry g, u32 hit_mask, double8 t
     return n;
 }
 
-// `channel`: where the first pixel is; the second row is `line` further.
+// Stores a channel's values. `channel`: the first pixel's position; the second row is `line` further.
 FN void put_channel(__global float* channel, u32 line, u32 active_mask, float8 values) {
     if (active_mask == 0xff) {
         vstore4(values.lo, 0, channel);
@@ -77,10 +78,11 @@ FN void put_words(__global float* channel, u32 line, u32 active_mask, u32 hit_ma
                 hit_mask >> k & 1u ? words[k] : background;
 }
 
-// What the rays of the hit mask see; at least one is set. The others look like the first of them.
+// The sights of the rays of the hit mask, in which at least one bit is set. The other rays have the sight of the first
+// of them.
 typedef struct {
     packet_sight sight;
-    u32 region[PACKET], solid[PACKET];  // + 1; 0: none
+    u32 region[PACKET], solid[PACKET];  // number + 1; 0: none
 } packet_view;
 
 FN packet_view view_of(const packet* p, __global const Frame* f, Geometry g, appearance_tables a, u32 hit_mask) {
@@ -139,7 +141,7 @@ FN packet_view view_of(const packet* p, __global const Frame* f, Geometry g, app
     return view;
 }
 
-// Stores the pixels of the active rays; those of the hit mask see something. Left a call: measured
+// Stores the pixels of the active rays; the rays of the hit mask see something. Not inlined: measured
 // (docs/experiments.md).
 NOINLINE_FN void put_pixels(const packet* p, __global const Frame* f, Geometry g, appearance_tables a,
                             __global float* picture, u32 active_mask, u32 hit_mask) {

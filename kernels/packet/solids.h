@@ -1,15 +1,15 @@
-// A packet's rays take up what they meet of a solid, as boolean/first_hit.h does for one ray. Closed-form solids are
-// intersected with all rays at once.
+// Solids: a packet's rays add a solid's segments to their sweeps, as boolean/first_hit.h does for one ray. Closed-form
+// solids are intersected with all rays at once.
 //
-// A mask is a word whose bit k stands for ray k: the active mask for the rays that take part, the overflow mask for
-// those whose sweep has no room for a segment more.
+// A mask is a word whose bit k stands for ray k: the active mask for the rays that take part, the overflow mask for the
+// rays whose sweep has no room for another segment.
 #ifndef CSGRT_PACKET_SOLIDS_H
 #define CSGRT_PACKET_SOLIDS_H
 
 #include "../boolean/first_hit.h"
 #include "packet.h"
 
-// How a ray's parameter is to be read: what is claimed up to `after` is not seen, ends within the tolerance are one,
+// The meaning of a ray's parameter t: claims up to `after` are not seen, boundaries within `tolerance` are one event,
 // and t is at unit x t - offset in the list of nodes.
 typedef struct {
     real after, tolerance;
@@ -22,13 +22,13 @@ typedef struct {
     packet_lanes lanes;
     packet_slab_ray slabs;
     double8 t_min;              // segments that end before it are not wanted
-    packet_view_range range;    // of a picture's
-    sweep_reach reach[PACKET];  // of each ray
-    float next_events[PACKET];  // of each sweep, as next_event_of() has it
+    packet_view_range range;    // of a picture's rays
+    sweep_reach reach[PACKET];  // one a ray
+    float next_events[PACKET];  // one a sweep, from next_event_of()
     sweep sweeps[PACKET];
 } packet;
 
-// About where the next event of ray k is complete, in the distances of the list.
+// An estimate of the distance where the next event of ray k is complete, in the distances of the list.
 FN float next_event_of(const packet* p, u32 k) {
     const sweep* w = p->sweeps + k;
     const sweep_reach r = p->reach[k];
@@ -36,7 +36,7 @@ FN float next_event_of(const packet* p, u32 k) {
                                          : BOX_MISSED;
 }
 
-// The active rays take up what they meet of a solid. Returns the overflow mask.
+// Adds a solid's segments to the active rays' sweeps. Returns the overflow mask.
 FN u32 take_solid_by_packet(packet* p, Geometry g, u32 index, u32 active_mask) {
     const SolidRecord solid = g.solids[index];
     u32 alone = active_mask, overflow_mask = 0;
