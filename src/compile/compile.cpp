@@ -1,4 +1,5 @@
-// The steps: validate; flatten and measure, until all stand where they may; clip; number; regions, looks, shapes.
+// Compiling a scene. The steps: validate; flatten and measure, until all solids are within the limits; clip; number;
+// regions, appearance, shapes.
 
 #include "compile/regions/status_tree.hpp"
 #include "compile/compiled_scene.hpp"
@@ -28,8 +29,8 @@ namespace csgrt {
 
 namespace {
 
-/// Where planes of unbounded solids are compared: around everything bounded, or where there is nothing, around the feet
-/// of the planes.
+/// The box in which planes of unbounded solids are compared: around everything bounded or, without bounded solids,
+/// around the feet of the planes.
 Box common_box(const Scene& scene, const FlatScene& flat, const Space& space) {
     double reach = space.radius;
     if (reach == 0) {
@@ -42,8 +43,8 @@ Box common_box(const Scene& scene, const FlatScene& flat, const Space& space) {
     return {{c.x - reach, c.y - reach, c.z - reach}, {c.x + reach, c.y + reach, c.z + reach}};
 }
 
-/// Whether solids are left out because of where they stand, so that the trees change. Throws Error (scene) if the scene
-/// is strict.
+/// Leaves out solids beyond the limits of size and distance. Returns whether there are any, so that the trees change.
+/// Throws Error (scene) if the scene is strict.
 bool leave_out_extremes(const Scene& scene, const FlatScene& flat, const Measured& measured, Names& names,
                         std::vector<Warning>& warnings) {
     const std::vector<ExtentFault> faults = extent_faults(scene, flat, measured);
@@ -66,7 +67,7 @@ bool leave_out_extremes(const Scene& scene, const FlatScene& flat, const Measure
     throw Error(Status::scene, findings.take());
 }
 
-/// Warnings about one object that say the same become one, at the first of them.
+/// Joins warnings of the same sentence about one object, at the first of them.
 void join_equal(std::vector<Warning>& warnings) {
     std::map<std::pair<std::string_view, std::string_view>, Warning*> known;
     std::vector<Warning> joined;
@@ -104,7 +105,7 @@ CompiledScene compile(const Scene& scene, const std::vector<std::string>& object
     std::vector<Warning> warnings = scene.warnings;
     Validated validated = validate(scene, names, objects, options.skip_unsupported, warnings, options.max_instances);
     if (!validated.findings.empty()) throw Error(Status::scene, std::move(validated.findings));
-    if (roots.empty()) roots = names.top_objects();  // all were in cycles, which are cut now
+    if (roots.empty()) roots = names.top_objects();  // all objects were in cycles, which are cut now
 
     const auto flattened = [&] {
         return flatten(scene, names, validated.instances, roots, options.air, options.max_instances);

@@ -54,7 +54,7 @@ void sine_cosine(double degrees, double& sine, double& cosine) {
     }
 }
 
-/// The model as a view frames it: the middle of its box, and half the box's diagonal.
+/// The model in BRL-CAD's default view: the middle of its box, and half the box's diagonal.
 struct Surroundings {
     dvec3 low, high, center;
     double half;
@@ -65,7 +65,7 @@ Surroundings surroundings_of(const CompiledScene& scene) {
     return {low, high, 0.5 * (low + high), 0.5 * glm::distance(low, high)};
 }
 
-/// BRL-CAD's eye stands back so many halves of the view.
+/// The distance of BRL-CAD's eye, in halves of the view.
 constexpr double standoff = std::numbers::sqrt2;
 
 dvec3 center_of(const Camera& camera, const Surroundings& model) {
@@ -75,14 +75,14 @@ dvec3 center_of(const Camera& camera, const Surroundings& model) {
     return camera.center ? in_range(*camera.center, "the centre of the view") : model.center;
 }
 
-/// The view's axes: unit vectors, perpendicular to each other. `back` points to the eye, `distance` tells how far it
-/// is.
+/// The view's axes: unit vectors, perpendicular to each other. `back` points to the eye; `distance` is the eye's
+/// distance.
 struct Axes {
     dvec3 right, up, back;
     double distance = 0;
 };
 
-/// The direction of v, and in `length` how long that is; of any length but 0, without overflow on the way.
+/// The direction of v, and its length in `length`; without overflow for any length but 0.
 dvec3 direction_of(dvec3 v, double& length) {
     const double largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
     length = 0;
@@ -98,7 +98,7 @@ Axes axes_of(const Camera& camera, dvec3 center) {
     if (camera.eye) {
         axes.back = direction_of(in_range(*camera.eye, "the place of the eye") - center, axes.distance);
         if (!(axes.distance > 0)) refuse("the eye stands at the point that it looks at");
-        // To the right is what lies level; seen along z, as from azimuth 0.
+        // The right axis is level; seen along z, it is that of azimuth 0.
         double level = 0;
         axes.right = direction_of({-axes.back.y, axes.back.x, 0}, level);
         if (!(level > 0)) axes.right = {0, 1, 0};
@@ -110,7 +110,7 @@ Axes axes_of(const Camera& camera, dvec3 center) {
         axes = {{-sin_a, cos_a, 0}, {-sin_e * cos_a, -sin_e * sin_a, cos_e}, {cos_e * cos_a, cos_e * sin_a, sin_e}};
     }
     if (camera.up) {
-        constexpr double least_sine = 1e-9;  // below it rounding decides which way is right
+        constexpr double least_sine = 1e-9;  // below it rounding would decide which way is right
         double length = 0, sine = 0;
         for (const double x : {camera.up->x, camera.up->y, camera.up->z}) finite(x, "the direction upward");
         const dvec3 up = direction_of(to_glm(*camera.up), length);
@@ -122,8 +122,8 @@ Axes axes_of(const Camera& camera, dvec3 center) {
     return axes;
 }
 
-/// How far before its centre the rays of an orthographic view start: where BRL-CAD's eye stands, or before the whole
-/// model if that is farther.
+/// The distance from an orthographic view's centre to its rays' origins: BRL-CAD's eye, or before the whole model if
+/// that is farther.
 double plane_to_center(const CompiledScene& scene, const Surroundings& model, dvec3 center, dvec3 back, double half) {
     const double eye = standoff * half;
     double model_end = 0;
@@ -136,16 +136,16 @@ double plane_to_center(const CompiledScene& scene, const Surroundings& model, dv
     return std::max({eye, model_end, scene_end});
 }
 
-/// BRL-CAD's own light, where a scene has none: half a view back from the eye and half a view to its left, of the view
-/// that shows the whole model orthographically. It stays there when the view shows a part. Fitted to BRL-CAD's pictures
-/// of spheres.
+/// BRL-CAD's own light, for a scene without lights. It stands half a view back from the eye and half a view to its
+/// left, in the view that shows the whole model orthographically. It stays there when the view shows a part. Fitted to
+/// BRL-CAD's pictures of spheres.
 dvec3 light_of_model(const Surroundings& model, const Axes& axes) {
     const dvec3 eye = model.center + standoff * model.half * axes.back;
     return eye + model.half * (axes.back - axes.right);
 }
 
-/// The same with a perspective: by the eye, if that is near. The farther away it stands, the nearer the light is to
-/// that of an orthographic view, which is what a perspective of nearly 0 shows.
+/// The same light with a perspective: by the eye, if the eye is near. The farther away the eye is, the nearer the light
+/// is to the orthographic view's, which a perspective of nearly 0 shows.
 dvec3 light_by_eye(const Surroundings& model, const Axes& axes, dvec3 eye, double half) {
     const double near = standoff * model.half, distance = glm::dot(eye - model.center, axes.back);
     const dvec3 at = eye + half * (axes.back - axes.right);
@@ -229,7 +229,8 @@ PreparedFrame prepare_frame(const CompiledScene& scene, const View& view, double
     kernel::Frame& frame = result.frame;
     fill_scene(scene, tolerance, frame);
     put(eye, frame.eye);
-    // All are exact, so each ray is the whole view's, to the last bit, unless it is moved by a part of a pixel.
+    // The steps are all exact. So each ray is the whole view's, to the last bit, unless it is moved by a part of a
+    // pixel.
     const double step = sampling.step;
     put(step * (pixel * axes.right), frame.u);
     put(step * (pixel * axes.up), frame.v);
@@ -246,7 +247,8 @@ PreparedFrame prepare_frame(const CompiledScene& scene, const View& view, double
     frame.width = static_cast<std::uint32_t>((part.width - sampling.column + sampling.step - 1) / sampling.step);
     frame.height = static_cast<std::uint32_t>((part.height - sampling.line + sampling.step - 1) / sampling.step);
     frame.perspective = perspective;
-    // First hits are looked for in the order of the solids' boxes; a plate that a ray grazes begins far before its box.
+    // First hits are searched in the order of the solids' boxes, but a plate that a ray grazes begins far before its
+    // box.
     frame.every_partition = view.every_partition || frame.whole_lines;
     if (!frame.every_partition) frame.starting_node = scene.starting_node;
     const std::uint32_t counts = view.every_partition ? channel::counts : 0;

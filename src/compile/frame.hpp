@@ -1,4 +1,4 @@
-// View + CompiledScene -> Frame: everything that a kernel needs to know about one picture.
+// Frame: made of a View and a CompiledScene. It holds everything that a kernel needs to know about one picture.
 #pragma once
 
 #include <vector>
@@ -10,29 +10,31 @@ namespace csgrt {
 struct PreparedFrame {
     kernel::Frame frame{};
     std::vector<kernel::LightRecord> lights;
-    double eye_to_center = 0;  ///< millimetres; orthographic: from where the rays start
+    double eye_to_center = 0;  ///< millimetres; orthographic: from the rays' origins
     double view_size = 0;      ///< height of the picture at the centre, millimetres
     Vec3 right, up, back;      ///< the view's axes; `back` points to the eye
     Vec3 center;
     double aspect = 1;       ///< of the whole view: width / height
-    std::uint64_t rays = 0;  ///< numbers of rays: pixels of the screen, filled up to whole tiles
+    std::uint64_t rays = 0;  ///< numbers of rays: the screen's pixels, filled up to whole tiles
 };
 
-/// Which rays of a view: of every `step`-th column and line from the first ones on, moved by a part of a pixel.
+/// The rays of a view that are drawn: every `step`-th column and line from the first ones on, moved by a part of a
+/// pixel.
 struct Sampling {
-    int step = 1, column = 0, line = 0;  ///< a power of two; below it
+    int step = 1, column = 0, line = 0;  ///< step: a power of two; column and line: less than step
     double right = 0, down = 0;
 };
 
-/// BRL-CAD's view. A negative `tolerance` means the scene's. Throws Error (usage) for sizes and angles that make no
-/// sense.
+/// Prepares BRL-CAD's view. A negative `tolerance` means the scene's. Throws Error (usage) for sizes and angles that
+/// have no meaning.
 PreparedFrame prepare_frame(const CompiledScene& scene, const View& view, double tolerance = -1,
                             const Sampling& sampling = {});
 
-/// The frame of a list of rays: no camera, no lights, everything along the whole line.
+/// Prepares the frame of a list of rays: no camera, no lights, everything along the whole line.
 PreparedFrame prepare_rays(const CompiledScene& scene, std::uint32_t count, double tolerance = -1);
 
-/// The model's box as BRL-CAD frames it: rounded outward to whole millimetres (not below one millimetre of diagonal).
+/// The model's box for BRL-CAD's default view: rounded outward to whole millimetres (at least one millimetre of
+/// diagonal).
 Box framing_box(const CompiledScene& scene);
 
 }  // namespace csgrt

@@ -1,5 +1,5 @@
-// (A + B + (C - D)) and H becomes (A and H) + B + (C and H) - D, if H cuts A and C and holds B. So terms stay small,
-// and only those of cut solids know of H.
+// Moving half-spaces down trees. (A + B + (C - D)) and H becomes (A and H) + B + (C and H) - D, if H cuts A and C and
+// holds B. So terms stay small, and only the terms of cut solids have H.
 
 #include "compile/half_spaces.hpp"
 
@@ -17,12 +17,12 @@ namespace csgrt {
 
 namespace {
 
-/// A half-space's plane, of each instance that is one.
+/// One entry an instance: the plane, if it is a half-space.
 using HalfSpaces = std::vector<std::optional<Plane>>;
 
 enum class Side { inside, cut, outside };
 
-/// `margin`: what is no farther away is cut.
+/// The side of a plane on which a box lies. `margin`: a box that is no farther away is cut.
 Side side_of(const Box& box, const Plane& plane, double margin) {
     if (!is_finite(box)) return Side::cut;
     double low = -plane.distance, high = -plane.distance;
@@ -36,7 +36,7 @@ Side side_of(const Box& box, const Plane& plane, double margin) {
     return high < -margin ? Side::inside : low > margin ? Side::outside : Side::cut;
 }
 
-/// Moves half-spaces down trees, to what they cut.
+/// Moves half-spaces down trees, to the solids that they cut.
 class Cutter {
 public:
     Cutter(const HalfSpaces& halves, const std::vector<Box>& boxes, double margin)
@@ -67,20 +67,20 @@ public:
             } else {
                 enter(task.node, task.cuts);
             }
-            // Half-spaces that all cut very much would be written very often.
+            // Half-spaces that cut nearly all solids would be written very often.
             if (std::max(nodes_->size(), cuts_.size()) > 4 * tree.nodes.size() + 64) return tree;
         }
         return result;
     }
 
-    /// Does a cut that took something of the last tree leave nothing of the solid?
+    /// Does a cut of the last tree leave nothing of the solid?
     bool takes(std::uint32_t solid) const {
         return std::any_of(taking_.begin(), taking_.end(), [&](const Cut& cut) { return takes(cut, boxes_[solid]); });
     }
 
 private:
     static constexpr std::uint32_t none = 0xffffffff;
-    /// A list's element: of what it stands at, what is inside the half-space is left, or what is outside.
+    /// An element of a list of cuts: the part inside the half-space stays, or the part outside.
     struct Cut {
         std::uint32_t half;
         bool keeps_outside;
@@ -88,7 +88,7 @@ private:
     };
     struct Task {
         std::uint32_t node, cuts;
-        std::uint32_t operands;  ///< that are written: it is their operator's turn; 0: the node's
+        std::uint32_t operands;  ///< that are written already: their operator is next; 0: the node is next
     };
 
     bool is_half(std::uint32_t node) const {
@@ -100,7 +100,7 @@ private:
         const Operator op = (*given_)[node].op;
         operands_.clear();
         for (std::uint32_t next = node; operands_.size() < (*given_)[node].arity; next = first_[next - 1])
-            operands_.push_back(next - 1);  // the last is the first here
+            operands_.push_back(next - 1);  // the last operand is the first here
         if (op == Operator::intersection || op == Operator::difference) cuts = take_halves(op, cuts);
         const std::optional<std::uint32_t> left = left_of(cuts, subtrees_[node]);
         if (!left) return push(Value::nothing);
@@ -111,7 +111,7 @@ private:
         }
         const bool is_passed_on = op == Operator::union_ || op == Operator::intersection || op == Operator::difference;
         tasks_.push_back({node, is_passed_on ? none : *left, static_cast<std::uint32_t>(operands_.size())});
-        std::uint32_t cut_one = operands_.back();  // of a difference and an intersection one operand is enough
+        std::uint32_t cut_one = operands_.back();  // for a difference and an intersection one operand is enough
         if (op == Operator::intersection)
             cut_one = *std::min_element(operands_.begin(), operands_.end(), [&](std::uint32_t a, std::uint32_t b) {
                 return diagonal(subtrees_[a]) < diagonal(subtrees_[b]);
@@ -121,7 +121,7 @@ private:
                 {operand, op == Operator::union_ || (is_passed_on && operand == cut_one) ? *left : none, 0});
     }
 
-    /// Takes the half-spaces away from the operands, unless nothing would be left for them to cut. Returns the cuts.
+    /// Takes the half-spaces out of the operands, unless nothing would be left for them to cut. Returns the cuts.
     std::uint32_t take_halves(Operator op, std::uint32_t cuts) {
         const bool is_difference = op == Operator::difference;
         const auto end = is_difference ? operands_.end() - 1 : operands_.end();
@@ -142,7 +142,7 @@ private:
         return side_of(box, *halves_[cut.half], margin_) == (cut.keeps_outside ? Side::inside : Side::outside);
     }
 
-    /// Those of the cuts that go through the box; none at all: they leave nothing of it.
+    /// Returns the cuts that go through the box; nothing if they leave nothing of it.
     std::optional<std::uint32_t> left_of(std::uint32_t cuts, const Box& box) {
         std::uint32_t left = none, count = 0, left_count = 0;
         for (std::uint32_t i = cuts; i != none; i = cuts_[i].next, ++count) {
@@ -159,7 +159,7 @@ private:
             ++left_count;
         }
         if (left_count < count) return left;
-        cuts_.resize(cuts_.size() - count);  // the same list
+        cuts_.resize(cuts_.size() - count);  // the list is unchanged
         return cuts;
     }
 
@@ -187,12 +187,12 @@ private:
     const std::vector<Box>& boxes_;
     const double margin_;
     const std::vector<FlatTree::Node>* given_ = nullptr;
-    std::vector<Box> subtrees_;         ///< around each node's
-    std::vector<std::uint32_t> first_;  ///< of each node's subtree
+    std::vector<Box> subtrees_;         ///< one around each node's subtree
+    std::vector<std::uint32_t> first_;  ///< the first node of each subtree
     std::vector<FlatTree::Node>* nodes_ = nullptr;
     std::vector<Cut> cuts_;
     std::vector<Task> tasks_;
-    std::vector<std::uint32_t> operands_;  ///< of the node that is entered
+    std::vector<std::uint32_t> operands_;  ///< of the current node
     std::vector<std::size_t> places_;      ///< where written operands begin
     std::vector<Value> values_;
     std::vector<Cut> taking_;
@@ -204,7 +204,7 @@ bool is_plate(const Shape& shape) {
     return bot != nullptr && bot->mode != Bot::Mode::volume;
 }
 
-/// By which regions: those that end, or others too.
+/// The regions that use a solid: bounded ones only, or others too.
 enum class Use : std::uint8_t { none, bounded, unbounded };
 
 template <class Call>
@@ -241,7 +241,7 @@ Clipped clip_by_half_spaces(const Scene& scene, const FlatScene& flat, const std
     std::vector<Box> limits = boxes;
     for (std::size_t i = 0; i < boxes.size(); ++i)
         if (is_plate(shape_of(scene, flat, flat.instances[i]))) limits[i] = whole_space;
-    // Far more than ends of segments that are one, and than rounding.
+    // The margin is far more than the distance of boundaries that are one, and than rounding.
     const double margin =
         1e-5 * diagonal(around) + 4 * scene.tolerance + 16 * coordinate_rounding * largest_coordinate(around);
     Clipped result;
@@ -254,8 +254,8 @@ Clipped clip_by_half_spaces(const Scene& scene, const FlatScene& flat, const std
         for_each_leaf(cut, [&](std::uint32_t solid) { uses[solid] = std::max(uses[solid], Use::bounded); });
         const Use of_halves = is_finite(tree_box(region.tree, limits)) ? Use::bounded : Use::unbounded;
         for_each_leaf(region.tree, [&](std::uint32_t solid) {
-            // The reference evaluates the tree as it was. And what was removed from what is gone may end within the
-            // tolerance of another solid's end: then the two are one point.
+            // The reference evaluates the original tree. And a solid removed from a dropped solid may end within the
+            // tolerance of another solid's boundary: then the two are one point.
             uses[solid] = std::max(uses[solid], halves[solid]         ? of_halves
                                                 : cutter.takes(solid) ? Use::none
                                                                       : Use::bounded);

@@ -1,5 +1,5 @@
-// Half-spaces in trees. One that cuts a whole model stands in every region's tree and meets every ray, though nearly
-// all solids lie on one side of it.
+// Half-spaces in trees. A half-space that cuts a whole model stands in every region's tree and meets every ray, though
+// nearly all solids lie on one side of it. Clipping moves it to the solids that it cuts.
 #pragma once
 
 #include <vector>
@@ -10,21 +10,22 @@
 
 namespace csgrt {
 
-/// What half-spaces leave of a scene. Without any, and where nothing else is, the lists are empty: all stays as it is.
+/// The result of clipping. The lists are empty if nothing changes.
 struct Clipped {
-    /// One a region: as the region's, but half-spaces stand at the solids that they cut, solids beside them have none,
-    /// and those that they take away are gone. No nodes: nothing is left of the region.
+    /// One a region: the region's tree, with half-spaces at the solids that they cut, without them at solids that they
+    /// hold, and without the solids that they take away. No nodes: nothing is left of the region.
     std::vector<FlatTree> trees;
-    /// One an instance: the box where rays have to meet it. Its own; of a half-space that only bounded regions use,
-    /// what of it lies within `end`; empty if no tree needs it and nothing of it is near what is left.
+    /// One an instance: the box in which rays have to meet it. For most solids it is their own box; for a half-space
+    /// that only bounded regions use, its part within `end`; empty if no tree needs the solid and nothing that is left
+    /// is near it.
     std::vector<Box> reaches;
-    Box end{};  ///< around all bounded solids, farther off than ends of segments that are one
+    Box end{};  ///< the box around all bounded solids, farther off than boundaries that are one
 };
 
-/// `boxes`: one an instance, see SolidBoxes::tight.
+/// Clips the trees. `boxes`: one an instance, see SolidBoxes::tight.
 Clipped clip_by_half_spaces(const Scene& scene, const FlatScene& flat, const std::vector<Box>& boxes);
 
-/// The faces of that box.
+/// The faces of a box, as planes.
 std::vector<Plane> sides_of(const Box& box);
 
 }  // namespace csgrt

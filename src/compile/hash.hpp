@@ -1,4 +1,4 @@
-// One number for everything that crosses the bus.
+// Hash of a compiled scene: one number for everything that crosses the bus.
 #pragma once
 
 #include <cstdint>
@@ -7,9 +7,9 @@
 
 namespace csgrt {
 
-/// FNV-1a over all that the device gets: the same scene gives the same number, on every machine of the same byte order.
+/// FNV-1a over all bytes that the device gets. Equal scenes give equal hashes, on all machines of one byte order.
 std::uint64_t hash_of(const CompiledScene& scene);
-/// CompiledScene::geometry_hash, which that goes on from.
+/// CompiledScene::geometry_hash, with which hash_of() begins.
 std::uint64_t hash_of_geometry(const CompiledScene& scene);
 
 }  // namespace csgrt

@@ -1,5 +1,5 @@
-// A compiled scene in one precision: the tables as that precision's kernels read them, and the kernels' geometry on the
-// host. On this side everything stays in double; what crosses the bus is bytes.
+// Host kernels: a compiled scene in one precision. They have the tables as that precision's kernels read them, and the
+// kernels' geometry on the host. Callers stay in double; the bytes for the bus are converted here.
 #pragma once
 
 #include <cstddef>
@@ -15,16 +15,16 @@ class HostKernels {
 public:
     virtual ~HostKernels() = default;
 
-    /// The scene's tables that depend on the precision. They live as long as the compiled scene and this.
+    /// The scene's tables that depend on the precision. They live as long as the compiled scene and this object.
     struct Tables {
         std::span<const std::byte> solids, reals, planes, inner_nodes, nodes;
     };
     virtual Tables tables() const = 0;
     virtual std::vector<std::byte> frame(const kernel::Frame& frame) const = 0;
     virtual std::vector<std::byte> lights(const std::vector<kernel::LightRecord>& lights) const = 0;
-    /// Throws Error (usage) for a ray whose numbers do not fit the precision. `first`: the first one's index.
+    /// Throws Error (usage) for a ray whose numbers do not fit the precision. `first`: the index of the first ray.
     virtual void check(std::span<const kernel::RayRecord> rays, std::uint64_t first) const = 0;
-    /// Writes ray_bytes() for each from `to` on. Any thread.
+    /// Writes ray_bytes() for each ray, from `to` on. Any thread.
     virtual void write_rays(std::span<const kernel::RayRecord> rays, std::byte* to) const = 0;
     std::vector<std::byte> rays(std::span<const kernel::RayRecord> rays) const {
         std::vector<std::byte> bytes(rays.size() * ray_bytes());

@@ -17,10 +17,10 @@ namespace {
 
 constexpr double everywhere = 180;  // degrees from the beam's axis
 
-/// Intensities of 0 and less mean 1, as in BRL-CAD.
+/// The intensity of a light. As in BRL-CAD, 0 and less mean 1.
 double intensity_of(const Emission& light) { return light.intensity > 0 ? light.intensity : 1; }
 
-/// `light` has a colour that is shaded.
+/// The record of a light, whose colour is a value for shading.
 kernel::LightRecord light_record(const Light& light) {
     kernel::LightRecord record = light_at(light.position, light.intensity * light.color);
     if (light.infinite) {
@@ -55,15 +55,15 @@ kernel::MaterialRecord material_of(const RegionInfo& info, double brightness, co
                              static_cast<std::uint32_t>(std::max(f.shine, 0)),
                              0};
     if (!f.light) return m;
-    // A body that shines has half of its colour everywhere, and the other half where it faces the eye, by which it
-    // looks round.
+    // A body that glows shows half of its colour in any light, and the other half by how much it faces the eye, so that
+    // it looks round.
     m.specular = m.diffuse = 0;
     m.ambient = ambient > 0 ? to_float(0.5 * brightness / ambient) : 0;
     m.glow = to_float((ambient > 0 ? 0.5 : 1) * brightness);
     return m;
 }
 
-/// The lights of the regions that shine, by BRL-CAD's rules. Returns how bright each region is.
+/// Adds the lights of the regions that emit light, by BRL-CAD's rules. Returns the brightness of each region.
 std::vector<double> add_region_lights(std::span<const RegionInfo> regions, std::span<const RegionLight> shining,
                                       Looks& looks, std::vector<Warning>& warnings) {
     double brightest = 0;
@@ -71,7 +71,7 @@ std::vector<double> add_region_lights(std::span<const RegionInfo> regions, std::
         const Emission& light = *regions[of.region].finish.light;
         if (!(light.fraction > 0)) brightest = std::max(brightest, intensity_of(light));
     }
-    // BRL-CAD's: the brightest light and half of the ambient light together make white.
+    // The scale is BRL-CAD's: the brightest light and half of the ambient light together make white.
     const double full = brightest * (1 + 0.5 * looks.ambient);
     std::vector<double> brightness(regions.size());
     for (const RegionLight& of : shining) {
@@ -94,7 +94,7 @@ std::vector<double> add_region_lights(std::span<const RegionInfo> regions, std::
         Vec3 axis{0, 0, -1};
         if (light.direction) axis = *light.direction;
         if (light.target) axis = *light.target - found.position;
-        // The first solid's, as in BRL-CAD, whatever was given.
+        // The matrix of the first solid turns the beam, as in BRL-CAD, whatever direction was given.
         found.direction = narrow(transform_direction(of.matrix, wide(axis)));
         looks.lights.push_back(light_record(found));
     }
@@ -117,7 +117,7 @@ Looks looks_of(const SceneLooks& scene, std::span<const RegionInfo> regions, std
                bool display_shading, std::vector<Warning>& warnings) {
     Looks looks;
     looks.display_shading = display_shading;
-    // For ever: a thread may compile while the process ends.
+    // The tables are never destroyed: a thread may compile while the process ends.
     static const auto* const tables =
         new std::array<SharedVector<kernel::DisplayBytes>, 2>{display_bytes(false), display_bytes(true)};
     looks.display = (*tables)[display_shading];

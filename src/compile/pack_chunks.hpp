@@ -1,4 +1,5 @@
-// Between the steps of packing a scene: solids in chunks of so many, each a thread's.
+// Chunks of solids: the data between the steps of packing a scene. Each chunk has a fixed number of solids and is one
+// thread's.
 #pragma once
 
 #include <cstdint>
@@ -20,12 +21,12 @@
 
 namespace csgrt {
 
-/// A plane of a solid on its way into the scene's table: all that the search touches in one line of the cache.
+/// A plane of a solid on its way into the scene's table: all data of the search, in one cache line.
 struct alignas(64) PackedPlane {
     PlaneTable::Key key;
-    kernel::PlaneRef ref = 0;  ///< first within the shard's table, then the scene's
-    std::uint16_t solid = 0;   ///< whose it is, within the chunk
-    bool is_first = false;     ///< no plane before it is the same
+    kernel::PlaneRef ref = 0;  ///< first in the shard's table, then in the scene's
+    std::uint16_t solid = 0;   ///< number of its solid within the chunk
+    bool is_first = false;     ///< no equal plane comes before it
 };
 static_assert(sizeof(PackedPlane) == 64);
 
@@ -34,15 +35,16 @@ struct PackedChunk {
 
     struct Part {
         std::uint32_t first_real, reals;  ///< within the chunk
-        std::uint32_t stands;             ///< the solid whose reals stand for its own: it, or one before it
-        std::uint32_t faces, cuts;        ///< planes; those of polyhedra that are one are one
+        std::uint32_t stands;             ///< the solid whose reals it uses: its own, or those of an earlier solid
+        std::uint32_t faces, cuts;        ///< numbers of planes; equal faces of a polyhedron count once
         bool is_large, is_polyhedron;
     };
     std::vector<Part> parts;  ///< one a solid
     std::vector<double> reals;
     std::vector<PackedPlane> planes;  ///< faces, then cuts, one solid's after the other's
-    std::vector<std::pair<std::uint32_t, SurfaceTable::Surface>> surfaces;  ///< and whose they are, within the chunk
-    std::vector<std::vector<PackedPlane>> large_faces;  ///< of each large solid; not among `planes` yet
+    std::vector<std::pair<std::uint32_t, SurfaceTable::Surface>> surfaces;  ///< with the number of its solid within the
+                                                                            ///< chunk
+    std::vector<std::vector<PackedPlane>> large_faces;  ///< one list a large solid; not yet among `planes`
     std::vector<Warning> warnings;
     std::uint32_t solid_types = 0;
 };
@@ -53,17 +55,18 @@ void for_each_chunk(const std::vector<PackedChunk>& chunks, const Call& call) {
     for_chunks(chunks.size(), 1, 0, [&](std::size_t number, std::size_t, std::size_t) { call(number); });
 }
 
-/// Two solids with surfaces that became one, the first around the second. What lies between them is lost.
+/// A shell: two solids with surfaces that became one, the first around the second. The space between them is lost.
 struct Shell {
     std::uint32_t outer, inner;
     double thickness;  ///< millimetres
 };
-/// Those that more than rounding keeps apart: modellers' numbers are good to 1e-12 of a solid's size. Any thread.
+/// A list of the shells thicker than rounding: modellers' numbers are good to 1e-12 of a solid's size. Any thread.
 class Shells {
 public:
     /// `common`: a box around the scene.
     explicit Shells(const Box& common) : rounding_(4 * coordinate_rounding * largest_coordinate(common)) {}
-    /// `depth`: how far the second lies within the first; negative: the first within the second. `box`: the second's.
+    /// Adds a shell. `depth`: how far the second solid lies within the first; negative: the first within the second.
+    /// `box`: the second's.
     void add(std::size_t first, std::size_t second, double depth, const Box& box) {
         if (!(std::fabs(depth) > std::max(rounding_, 1e-12 * diagonal(box))) || first == second) return;
         if (depth < 0) std::swap(first, second);
@@ -78,8 +81,8 @@ private:
     std::vector<Shell> all_;
 };
 
-/// Finds the planes that several share: fills planes of `shapes`, appends references to its words, and the solids'
-/// ranges of them. `empty`: a table without planes.
+/// Finds the planes that several solids share: fills planes of `shapes`, appends references to its words, and sets the
+/// solids' ranges of them. `empty`: a table without planes.
 void share_planes(std::vector<PackedChunk>& chunks, const PlaneTable& empty, const Box& common, Shapes& shapes,
                   Shells& shells, std::vector<Warning>& warnings);
 

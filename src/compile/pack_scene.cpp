@@ -1,5 +1,5 @@
-// Solids are computed by several threads. What they share is found as if one after the other, in their order, so that
-// the result does not depend on the threads.
+// Packing a scene. Several threads compute the solids. Shared planes and surfaces are found as if one after the other,
+// in the solids' order, so that the result does not depend on the threads.
 #include <algorithm>
 #include <map>
 #include <set>
@@ -15,7 +15,8 @@ namespace csgrt {
 
 namespace {
 
-/// Does its Packer keep off the scene? Solids of any size write there, and share what they are made of.
+/// Does a solid's Packer leave the scene's tables alone? Types without a fixed size write there, and share their
+/// elements.
 struct IsSmall {
     template <class Shape>
     bool operator()(const Shape&) const {
@@ -96,7 +97,7 @@ public:
     }
 
 private:
-    /// All that a solid needs no other for.
+    /// Computes everything of a solid that needs no other solid.
     void prepare(std::size_t number, PackedChunk& chunk, std::vector<Plane>& planes) {
         const Instance& instance = flat_.instances[order_[number]];
         const Solid& solid = std::get<Solid>(scene_.objects[instance.object]);
@@ -122,7 +123,7 @@ private:
             } else {
                 std::visit(packer, shape);
                 if (packer.record.type == SOLID_HALF && ends(order_[number])) {
-                    packer.record.type = SOLID_ARB;  // of which the plane of the half-space is face 0, too
+                    packer.record.type = SOLID_ARB;  // the half-space's plane is face 0 of the arb, too
                     for (const Plane& side : sides_of(clipped_.end)) packer.face(side);
                 }
             }
@@ -141,7 +142,7 @@ private:
         chunk.parts.push_back(part);
     }
 
-    /// Of a half-space.
+    /// Whether a half-space is bounded by the scene's box.
     bool ends(std::uint32_t instance) const {
         return !clipped_.reaches.empty() && is_finite(clipped_.reaches[instance]) &&
                !is_empty(clipped_.reaches[instance]);
@@ -152,7 +153,7 @@ private:
         for (const Plane& plane : planes) keys.push_back({planes_.key_of(plane)});
     }
 
-    /// Of a small solid, once more.
+    /// The axes of a small solid, computed once more.
     WideMatrix axes_of(std::uint32_t number) {
         const Instance& instance = flat_.instances[order_[number]];
         std::vector<double> reals;
@@ -192,7 +193,7 @@ private:
         });
     }
 
-    /// Solids of any size are packed on the way: what they write holds positions among the scene's numbers.
+    /// Lays out the reals. Solids without a fixed size are packed here: they write positions among the scene's numbers.
     void lay_out_reals() {
         std::vector<double>& reals = shapes_.reals;
         std::size_t next = 0;
@@ -240,10 +241,10 @@ private:
         append_keys(faces, chunk.large_faces.emplace_back());
     }
 
-    /// Names the solids of shells that a region loses: it holds the outer one less the inner one.
+    /// Warns of shells that a region loses: the region holds the outer solid less the inner.
     void note_shells() {
         if (shells_.all().empty()) return;
-        std::map<std::pair<std::uint32_t, std::uint32_t>, double> thickness;  // of instances
+        std::map<std::pair<std::uint32_t, std::uint32_t>, double> thickness;  // by pair of instances
         for (const Shell& shell : shells_.all()) {
             double& most = thickness[{order_[shell.outer], order_[shell.inner]}];
             most = std::max(most, shell.thickness);
@@ -252,7 +253,7 @@ private:
         for (const FlatRegion& region : flat_.regions) {
             const std::vector<FlatTree::Node>& nodes = region.tree.nodes;
             std::set<std::uint32_t> held, removed;
-            std::vector<bool> is_removed = {false};  // of operands that are still to come, from the last node back
+            std::vector<bool> is_removed = {false};  // of the operands still to come, from the last node back
             for (auto node = nodes.rbegin(); node != nodes.rend(); ++node) {
                 const bool here = is_removed.back();
                 is_removed.pop_back();
@@ -291,7 +292,7 @@ private:
     const std::vector<kernel::SolidRecord>& terms_;
     std::vector<Warning>& warnings_;
     Shapes shapes_;
-    PlaneTable planes_;  ///< empty, as is the next: those of the shards begin as copies
+    PlaneTable planes_;  ///< empty, as the next: the shards' tables begin as copies
     SurfaceTable surfaces_;
     SharedParts shared_;
     Shells shells_;

@@ -7,7 +7,7 @@
 namespace csgrt {
 namespace {
 
-// Of the hierarchy: more boxes fit closer, and take longer than what they spare.
+// The number of the hierarchy's boxes: more boxes fit closer, but take longer than the saved rays.
 constexpr std::size_t most_boxes = 64;
 
 std::vector<kernel::BvhNode> upper_boxes(const std::vector<kernel::BvhNode>& nodes) {
@@ -28,12 +28,13 @@ std::vector<kernel::BvhNode> upper_boxes(const std::vector<kernel::BvhNode>& nod
 
 double dot(const double* a, const double* b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
-/// Columns and lines, as view_ray() counts them: 0 through the middle of the first pixel.
+/// A range of columns and lines, as view_ray() counts them: 0 is the middle of the first pixel.
 struct Extent {
     double left = INFINITY, right = -INFINITY, top = INFINITY, bottom = -INFINITY;
 };
 
-// Takes in what the box, larger by `more` all around, covers. False: part of it is not before the eye.
+// Extends the range by the projection of the box, larger by `more` all around. False: a part of the box is not before
+// the eye.
 bool take_in(const kernel::Frame& f, const kernel::BvhNode& box, double more, Extent& extent) {
     for (unsigned corner = 0; corner < 8; ++corner) {
         double p[3];
@@ -61,8 +62,8 @@ kernel::ScreenBounds screen_bounds(const CompiledScene& scene, const kernel::Fra
     const kernel::ScreenBounds all{0, 0, f.width, f.height};
     if (scene.unbounded_count > 0) return all;
     if (scene.nodes.empty()) return {};
-    // By as much boxes grow for single rays (kernels/shared/slab.h), and coordinates are rounded. The same for every
-    // precision.
+    // The margin: boxes grow by it for single rays (kernels/shared/slab.h), and coordinates are rounded. It is the same
+    // for every precision.
     double to_center = 0, center = 0;
     for (int k = 0; k < 3; ++k) {
         to_center = std::hypot(to_center, f.eye[k] - f.center[k]);

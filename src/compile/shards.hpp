@@ -1,5 +1,5 @@
-// Looking up among millions, by several threads, with the answers of one that takes them in order: what may be one
-// falls into one shard, each shard is gone through in order, and different shards have nothing to do with each other.
+// Shards: search among millions of items by several threads, with the result of one thread that takes them in order.
+// Items that may be equal fall into one shard, each shard is searched in order, and different shards are independent.
 #pragma once
 
 #include <algorithm>
@@ -21,17 +21,17 @@ class Shards {
 public:
     static constexpr std::uint32_t count = 4096;
 
-    /// Where an item stands: number `index` of those that came in chunk `chunk`.
+    /// The position of an item: number `index` of chunk `chunk`.
     struct Member {
         std::uint32_t chunk, index;
     };
 
-    /// Items come in chunks, each by a thread of its own.
+    /// Items of one thread.
     class Chunk {
     public:
         void reserve(std::size_t items) { of_.reserve(items); }
-        /// An item that is looked up in these cells, a value and the cells' size for each dimension. Others that may be
-        /// the same differ by at most `tolerance` in each; cells are far larger than that.
+        /// One dimension of an item: its value, and the size of the cells in which it is looked up. Items that may be
+        /// equal differ by at most `tolerance` in each dimension; cells are far larger.
         struct Dimension {
             double value, tolerance, cell;
         };
@@ -39,7 +39,7 @@ public:
         void add(const std::array<Dimension, n>& at) {
             of_.push_back(shard_of(at));
         }
-        /// The item added last is looked up there, too.
+        /// Looks the last item up at another position, too.
         template <std::size_t n>
         void look_also(const std::array<Dimension, n>& at) {
             joined_.emplace_back(of_.back(), shard_of(at));
@@ -48,7 +48,8 @@ public:
     private:
         friend Shards;
 
-        /// The shard of the first cell; the few items near a border join those of all the cells that they touch.
+        /// Returns the shard of the first cell. The few items near a border join the shards of all cells that they
+        /// touch.
         template <std::size_t n>
         std::uint16_t shard_of(const std::array<Dimension, n>& at) {
             std::array<CellRange, n> ranges;
@@ -69,19 +70,19 @@ public:
         }
 
         std::vector<std::uint16_t> of_;                                ///< one an item
-        std::vector<std::pair<std::uint16_t, std::uint16_t>> joined_;  ///< shards that items have in common
+        std::vector<std::pair<std::uint16_t, std::uint16_t>> joined_;  ///< pairs of shards with an item in common
     };
 
     explicit Shards(std::size_t chunks) : chunks_(chunks) { std::iota(root_.begin(), root_.end(), std::uint16_t{0}); }
 
     Chunk& chunk(std::size_t number) { return chunks_[number]; }
 
-    /// When all chunks are complete: puts the items in order, by shard, then as they came.
+    /// Sorts the items by shard, then by arrival, when all chunks are complete.
     void sort() {
         for (const Chunk& chunk : chunks_)
             for (const auto& [a, b] : chunk.joined_) root_[root(a)] = root(b);
         for (std::uint32_t i = 0; i < count; ++i) root_[i] = root(static_cast<std::uint16_t>(i));
-        // Many chunks together: for each there are numbers for all shards.
+        // Many chunks form one group: a group has a count for each shard.
         constexpr std::size_t most_groups = 64;
         const std::size_t group_size = std::max<std::size_t>(1, (chunks_.size() + most_groups - 1) / most_groups);
         std::vector<std::array<std::uint32_t, count>> groups((chunks_.size() + group_size - 1) / group_size);
@@ -92,12 +93,12 @@ public:
         for (const auto& counts : groups)
             for (std::uint32_t shard = 0; shard < count; ++shard) first_[shard + 1] += counts[shard];
         std::partial_sum(first_.begin(), first_.end(), first_.begin());
-        // From how many there are to where a group's part of each shard goes on.
+        // The counts become the positions where a group's part of each shard begins.
         std::array<std::uint32_t, count + 1> next = first_;
         for (auto& counts : groups)
             for (std::uint32_t shard = 0; shard < count; ++shard)
                 next[shard] += std::exchange(counts[shard], next[shard]);
-        // No large one begins last, when the others have ended.
+        // Large shards come first, so that none begins when the others have ended.
         for (std::uint32_t shard = 0; shard < count; ++shard)
             if (size_of(shard) > 0) by_size_.push_back(static_cast<std::uint16_t>(shard));
         std::stable_sort(by_size_.begin(), by_size_.end(), [this](auto a, auto b) { return size_of(a) > size_of(b); });
@@ -108,12 +109,12 @@ public:
                     members_[groups[group][chunks_[c].of_[i]]++] = {static_cast<std::uint32_t>(c), i};
         });
     }
-    /// Calls work(table, members, shard) for each shard that has any, several at once, with a table that is cleared
-    /// before. Each thread has one of its own, which begins as a copy of `empty`: memory anew for every shard was a
+    /// Calls work(table, members, shard) for each shard that has members, several at once, with a table that is cleared
+    /// before. Each thread has its own table, which begins as a copy of `empty`: new memory for every shard was a
     /// seventh of the pages that compiling took.
     template <class Table, class Work>
     void for_each(const Table& empty, const Work& work) const {
-        constexpr std::size_t few = 8192;  // threads would take longer to begin
+        constexpr std::size_t few = 8192;  // items below which threads would take longer to start
         const unsigned threads = members_.size() < few ? 1 : thread_count(0);
         std::atomic<std::size_t> next{0};
         for_chunks(threads, 1, threads, [&](std::size_t, std::size_t, std::size_t) {

@@ -1,4 +1,4 @@
-// A compiled scene's tables as the kernels' geometry takes them.
+// Tables of a compiled scene, as the kernels' geometry takes them.
 #pragma once
 
 #include "base/laboratory.hpp"

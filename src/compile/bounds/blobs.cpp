@@ -1,4 +1,4 @@
-// Hearts and metaballs: how far they reach has no closed form.
+// Boxes of hearts and metaballs, whose extent has no closed form.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -14,13 +14,13 @@ namespace csgrt {
 
 namespace {
 
-/// Points of a quarter of the heart's surface, x and y not negative, around its
-/// centre: it is the surface t(direction), because (a t^2 - 1) / t^(5/3) grows
-/// with t. Close enough that none lies more than `sparse` outside their hull.
+/// Points of a quarter of the heart's surface, x and y not negative, around its centre. The surface is t(direction),
+/// because (a t^2 - 1) / t^(5/3) grows with t. The points are so close that none of the surface lies more than `sparse`
+/// outside their hull.
 const std::vector<Wide>& heart_points() {
     constexpr long double pi = 3.14159265358979323846L;
     constexpr int around = 64, upward = 256;
-    static const auto& points = *new const std::vector<Wide>([] {  // for threads that see exit(), too
+    static const auto& points = *new const std::vector<Wide>([] {  // never destroyed: threads may outlive exit()
         std::vector<Wide> all;
         for (int i = 0; i <= around; ++i)
             for (int k = 0; k <= upward; ++k) {
@@ -44,8 +44,8 @@ constexpr long double sparse = 5e-4L;
 /// Numbers of points.
 using Points = std::vector<std::uint32_t>;
 
-/// A cube within -1 to 1, how far it reaches in the direction that is asked for, and the points whose fields reach it,
-/// or more of them.
+/// A cube within -1 to 1, how far it extends in the wanted direction, and the points whose fields are not 0 in it, or
+/// more points.
 struct Cube {
     Wide center;
     long double half, reach;
@@ -53,9 +53,8 @@ struct Cube {
     bool operator<(const Cube& other) const { return reach < other.reach; }
 };
 
-/// How far the fields reach in direction n: cubes in which they may add up to
-/// the threshold, the farthest first, are cut into eight until the farthest is
-/// small.
+/// The extent of a metaball in direction n. Cubes in which the fields may add up to the threshold, the farthest first,
+/// are cut into eight until the farthest is small.
 class FieldSupport {
 public:
     explicit FieldSupport(const Metaball& s) : s_(s), frame_(frame_of(s)) {
@@ -72,7 +71,7 @@ public:
         const Wide n(x, y, z);
         const long double width = std::fabs(x) + std::fabs(y) + std::fabs(z);
         constexpr long double smallest = 1.0L / 4096;
-        std::size_t looks = 0;  // at a point from a cube
+        std::size_t looks = 0;  // points tested against a cube
         std::priority_queue<Cube> cubes;
         cubes.push({Wide(0), 1, width, all_});
         while (!cubes.empty()) {
@@ -88,7 +87,7 @@ public:
                 if (may_hold(at, half, *near)) cubes.push({at, half, glm::dot(n, at) + half * width, near});
             }
         }
-        return 0;  // nowhere
+        return 0;  // the fields add up to the threshold nowhere
     }
 
 private:

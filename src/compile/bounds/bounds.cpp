@@ -20,13 +20,12 @@ Box around_planes(const std::vector<Plane>& planes, const Vec3& near = {}) {
     const Box box = polyhedron_box(planes, near);
     if (!is_finite(box)) return box;
     if (is_empty(box)) {
-        // Never hit; any place will do.
+        // A ray never hits the solid, so any position will do.
         const Vec3 foot =
             planes.empty() ? Vec3{} : narrow(wide(planes[0].normal) * static_cast<long double>(planes[0].distance));
         return {foot, foot};
     }
-    // Vertices are found to about 1e-15 of the cube that they were sought in, which is not much larger than the
-    // solid.
+    // Vertices are found to about 1e-15 of the cube of the search, which is not much larger than the solid.
     const double pad = 1e-9 * diagonal(box);
     return {{box.low.x - pad, box.low.y - pad, box.low.z - pad},
             {box.high.x + pad, box.high.y + pad, box.high.z + pad}};
@@ -50,7 +49,7 @@ Box Tight::operator()(const Tgc& s) const {
 Box Tight::operator()(const Arb& s) const { return arb_box(s, m, arb_faces(s, m)); }
 Box Tight::operator()(const Arbn& s) const { return around_planes(arbn_faces(s, m)); }
 Box Tight::operator()(const Half&) const { return whole_space; }
-// The circle's box, and around it that of the tube's ball.
+// The box of the circle, enlarged by that of the tube's ball.
 Box Tight::operator()(const Tor& s) const {
     const Wide h = glm::normalize(wide(s.h));
     // The plane of the circle is that of the projections of x, y, z; its box comes from |e_i - (e_i . h) h|.
@@ -59,7 +58,7 @@ Box Tight::operator()(const Tor& s) const {
     return box_around(transform_point(m, wide(s.v)), static_cast<long double>(s.r_a) * half_size(disc) +
                                                          static_cast<long double>(s.r_h) * half_size(linear));
 }
-// Inside the cylinder over its base.
+// The box of the cylinder over its base, which holds the solid.
 Box Tight::operator()(const Ehy& s) const {
     const Wide a = glm::normalize(wide(s.a));
     const Wide b = glm::normalize(glm::cross(wide(s.h), a)) * static_cast<long double>(s.r_2);
@@ -72,7 +71,7 @@ Box Tight::operator()(const Cline&) const { throw std::logic_error("a cline is b
 
 namespace {
 
-/// BRL-CAD takes a cone for a right elliptical cylinder, with an exact box, within these tolerances.
+/// Does BRL-CAD take the cone for a right elliptical cylinder, with an exact box? These are its tolerances.
 bool is_right_cylinder(const Tgc& s, const Matrix& m) {
     constexpr long double length_tolerance = 1e-8L, dot_tolerance = 0.001L;
     const Wide h = transform_direction(m, wide(s.h)), a = transform_direction(m, wide(s.a)),
@@ -86,7 +85,7 @@ bool is_right_cylinder(const Tgc& s, const Matrix& m) {
            small(glm::dot(h, b) / (hh * bb), dot_tolerance);
 }
 
-/// Most are the exact ones.
+/// BRL-CAD's box of a solid. Most are the exact ones.
 struct BrlCad {
     const Matrix& m;
     const Box& exact;  ///< as Tight has it
@@ -120,8 +119,8 @@ struct BrlCad {
 
 namespace {
 
-/// Around the part of a torus between two planes through its axis, less than half of it: the balls of the tube along
-/// the arc lie within the hull of those at its ends and at the corner of their tangents.
+/// The box around the part of a torus between two planes through its axis, less than half of it. The balls of the tube
+/// along the arc lie within the hull of three balls: at both ends of the arc and at the corner of its tangents.
 Box bend_box(const Tor& s, const Matrix& m, const std::vector<Plane>& cuts) {
     const Wide axis = glm::normalize(wide(s.h)), from = -wide(cuts[0].normal), to = wide(cuts[1].normal);
     const long double radius = s.r_a, tube = s.r_h;
@@ -134,7 +133,7 @@ Box bend_box(const Tor& s, const Matrix& m, const std::vector<Plane>& cuts) {
     return intersected(box, Tight{m}(s));
 }
 
-/// A few roundings of each coordinate, and of what was added up to it.
+/// The box, larger by a few roundings of each coordinate and of the terms that were added up to it.
 Box rounded_outward(Box box) {
     if (!is_finite(box)) return box;
     const auto widen = [](double& low, double& high) {
@@ -166,7 +165,7 @@ namespace {
 /// Calls with the box of each node's subtree, in the order of the nodes.
 template <class Call>
 void for_each_subtree(const FlatTree& tree, const std::vector<Box>& boxes, const Call& call) {
-    // Of the set and of its complement, so that a set has one box however its tree is written.
+    // The boxes of a set and of its complement. With both, a set has one box however its tree is written.
     struct Both {
         Box inside, outside;
     };

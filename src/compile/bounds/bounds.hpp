@@ -11,13 +11,15 @@
 namespace csgrt {
 
 struct SolidBoxes {
-    /// Around everything that a ray can hit of the solid: tight, and rounded outward. Infinite if it is not bounded.
+    /// The box around everything that a ray can hit of the solid: tight, and rounded outward. Infinite if the solid is
+    /// not bounded.
     Box tight;
-    /// The box that BRL-CAD gives the solid, which is wider for some (cones, hyperboloids), and not rounded. The boxes
-    /// of regions and with them its view of a model come from these.
+    /// The box that BRL-CAD gives the solid: wider for some types (cones, hyperboloids), and not rounded. The boxes of
+    /// regions, and with them BRL-CAD's view of a model, come from these boxes.
     Box brlcad;
 };
-/// `cuts` (a torus only; see Piece) leave what is inside them. `faces`: an arb's, if they are known.
+/// Both boxes of a solid. `cuts` (a torus only; see Piece) keep the part inside them. `faces`: an arb's, if they are
+/// known.
 SolidBoxes solid_boxes(const Shape& shape, const Matrix& matrix, const std::vector<Plane>& cuts = {},
                        const ArbFaces* faces = nullptr);
 
@@ -28,10 +30,10 @@ inline Box brlcad_box(const Shape& shape, const Matrix& matrix, const std::vecto
     return solid_boxes(shape, matrix, cuts).brlcad;
 }
 
-/// BRL-CAD's rules for a tree: union and xor hold both, intersection what is common, difference the left side;
-/// `boxes` is one a solid. A complement is the whole space.
+/// The box of a tree by BRL-CAD's rules: union and xor have the box around both, intersection the common part,
+/// difference the left side's box. `boxes` has one a solid. A complement has the whole space.
 Box tree_box(const FlatTree& tree, const std::vector<Box>& boxes);
-/// The same of the subtree of each node.
+/// The boxes of the subtrees of all nodes, by the same rules.
 std::vector<Box> subtree_boxes(const FlatTree& tree, const std::vector<Box>& boxes);
 
 }  // namespace csgrt

@@ -1,4 +1,4 @@
-// Solids of a closed form. (Those whose reach has none: bounds_blobs.cpp.)
+// Boxes of solids of a closed form. Solids whose extent has none: blobs.cpp.
 #include <algorithm>
 #include <cmath>
 
@@ -10,15 +10,13 @@ namespace csgrt {
 
 namespace {
 
-/// Of q <= sqrt(1 - z), z >= 0, towards (q, z): at q = s, z = 1 - s^2 with 0 <=
-/// s <= 1.
+/// The support of q <= sqrt(1 - z), z >= 0, towards (q, z): at q = s, z = 1 - s^2 with 0 <= s <= 1.
 long double parabola_support(long double q, long double z) {
     const long double s = 2 * z > q ? q / (2 * z) : 1;
     return q * s + z * (1 - s * s);
 }
 
-/// Of q <= sqrt(k (zeta^2 - c^2)), c <= zeta <= 1 + c, k = 1 / (1 + 2 c), at z
-/// = 1 + c - zeta.
+/// The support of q <= sqrt(k (zeta^2 - c^2)), c <= zeta <= 1 + c, k = 1 / (1 + 2 c), at z = 1 + c - zeta.
 long double hyperbola_support(long double q, long double z, long double c) {
     const long double k = 1 / (1 + 2 * c), steep = z * z - k * q * q;
     if (!(z > 0) || !(steep > 0)) return q;
@@ -26,8 +24,7 @@ long double hyperbola_support(long double q, long double z, long double c) {
     return zeta < 1 + c ? z * (1 + c) - c * std::sqrt(steep) : q;
 }
 
-/// The most of a x + b y over x^p + y^p <= 1. Up to p = 1 the corners (1, 0)
-/// and (0, 1) reach farthest.
+/// The most of a x + b y over x^p + y^p <= 1. Up to p = 1 the maximum is at a corner, (1, 0) or (0, 1).
 long double dual_norm(long double a, long double b, long double p) {
     const long double larger = std::max(a, b), smaller = std::min(a, b);
     if (!(p > 1) || smaller == 0) return larger;
@@ -56,7 +53,7 @@ Box Tight::operator()(const Rhc& s) const {
     });
 }
 
-// Narrower than its ends.
+// The hyperboloid is narrower than its ends.
 Box Tight::operator()(const Hyp& s) const {
     const WideMatrix axes = axes_of(s);
     return united(ellipse_box(m, wide(s.v), axes[0], axes[1]), ellipse_box(m, wide(s.v) + wide(s.h), axes[0], axes[1]));
@@ -69,7 +66,7 @@ Box Tight::operator()(const Eto& s) const {
             return out + std::hypot(f.long_axis * (out * f.radial + z * f.axial),
                                     f.short_axis * (z * f.radial - out * f.axial));
         };
-        // Its mirror image reaches farther where its top is past the axis.
+        // The mirror image extends farther where the ellipse's top is past the axis.
         const long double out = std::hypot(x, y);
         return std::max(ellipse(out), ellipse(-out));
     });
@@ -81,8 +78,7 @@ Box Tight::operator()(const Part& s) const {
                   box_around(transform_point(m, wide(s.v) + wide(s.h)), static_cast<long double>(s.r_h) * ball));
 }
 
-// Two norms, one in the other: their support is the dual norms, one in the
-// other.
+// The gauge is one norm within another: the support is one dual norm within the other.
 Box Tight::operator()(const Superell& s) const {
     return support_box(
         m, wide(s.v), {wide(s.a), wide(s.b), wide(s.c)}, [&](long double x, long double y, long double z) {

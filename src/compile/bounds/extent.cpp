@@ -15,7 +15,7 @@ namespace {
 /// Boxes are padded for rounding.
 constexpr double most = Limits::length * (1 + 1e-6);
 
-/// What is wrong; empty: nothing. A comparison with what is not a number is false, and so a fault.
+/// The fault of a solid's size or position; empty: none. A comparison with NaN is false, and so a fault.
 std::string extent_fault(const Shape& shape, const Matrix& matrix, const Box& box) {
     if (const auto* half = std::get_if<Half>(&shape)) {
         const double distance = std::abs(transform_plane(matrix, half->plane).distance);
@@ -23,12 +23,13 @@ std::string extent_fault(const Shape& shape, const Matrix& matrix, const Box& bo
         return "lies " + rounded_text(distance) + " mm from the origin where it stands; " + length_limit();
     }
     const bool is_open =
-        std::holds_alternative<Arb>(shape) || std::holds_alternative<Arbn>(shape);  // unless its faces close
+        std::holds_alternative<Arb>(shape) || std::holds_alternative<Arbn>(shape);  // the faces of an arb may enclose
+                                                                                    // nothing
     const double far = std::max(largest(box.low), largest(box.high));
     if (!(far <= most) && !(is_open && std::isinf(far)))
         return "reaches to " + rounded_text(far) + " mm from the origin where it stands; " + length_limit();
     const Vec3 sides = box.high - box.low;
-    const double size = std::hypot(sides.x, sides.y, sides.z);  // the squares of what is too small may be 0
+    const double size = std::hypot(sides.x, sides.y, sides.z);  // the squares of very small numbers may be 0
     if (size >= Limits::least_length) return {};
     return "is " + rounded_text(size) + " mm large where it stands; the least size is " +
            number_text(Limits::least_length) + " mm";

@@ -1,5 +1,4 @@
-// Where the placed solids of a scene reach: not so far, and none so small, that what is computed of them loses its
-// meaning.
+// Extent of a scene's placed solids: limits on their distance and size, within which the arithmetic keeps its meaning.
 #pragma once
 
 #include <cstdint>
@@ -11,13 +10,13 @@
 
 namespace csgrt {
 
-/// A solid, and what is wrong with it in one of its places.
+/// A solid, and its fault under one of its transforms.
 struct ExtentFault {
     std::uint32_t object;
     std::string text;
 };
 
-/// Those that are larger or smaller than Limits allows where they stand.
+/// The solids that are larger, smaller or farther away than Limits allows.
 std::vector<ExtentFault> extent_faults(const Scene& scene, const FlatScene& flat, const Measured& measured);
 
 }  // namespace csgrt

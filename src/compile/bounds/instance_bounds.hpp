@@ -1,4 +1,4 @@
-// What is computed of each instance first, once for all that need it.
+// Bounds of instances: boxes and faces, computed first and once for all steps that need them.
 #pragma once
 
 #include <span>
@@ -13,15 +13,15 @@ namespace csgrt {
 
 class Measured {
 public:
-    /// The arithmetic is done by several threads.
+    /// Measures all instances, on several threads.
     Measured(const Scene& scene, const FlatScene& flat);
 
     std::vector<Box> boxes, brlcad_boxes;  ///< one an instance; see SolidBoxes
-    /// The faces of an instance that is an arb: long double is slow, and the box needs them, too.
+    /// The faces of an instance that is an arb. The box needs them, too, and long double is slow, so they are kept.
     std::span<const Plane> faces(std::size_t instance) const;
 
 private:
-    std::vector<std::uint32_t> first_face_;  ///< of each instance, within its chunk's
+    std::vector<std::uint32_t> first_face_;  ///< of each instance, within its chunk's faces
     std::vector<std::vector<Plane>> chunks_;
 };
 

@@ -1,4 +1,4 @@
-// Solids that triangles make.
+// Boxes of solids that triangles make.
 #include <algorithm>
 
 #include "compile/bounds/tight_box.hpp"
@@ -8,8 +8,8 @@ namespace csgrt {
 
 namespace {
 
-/// Around points that `each` hands over, one by one; `own` places them in the solid. None: a solid that is never hit;
-/// any place will do.
+/// The box around points that `each` hands over, one by one. `own` transforms them to the solid's space. Without points
+/// the solid is never hit, and any position will do.
 template <class Each>
 Box box_of(const Matrix& m, const Matrix& own, const Each& each) {
     Box box = empty_box;
@@ -27,7 +27,7 @@ Box Tight::operator()(const Bot& s) const {
             for (const std::uint32_t corner : face) point(s.vertices[corner]);
     });
     if (s.mode == Bot::Mode::volume || s.thickness.empty()) return box;
-    // Plates reach this far along their normals; along a ray that grazes them, farther.
+    // A plate extends this far along its normals, and farther along a ray that grazes it.
     const long double thickest = *std::max_element(s.thickness.begin(), s.thickness.end());
     const Wide reach = thickest * half_size(linear_part(m));
     return {narrow(wide(box.low) - reach), narrow(wide(box.high) + reach)};
@@ -48,7 +48,7 @@ Box Tight::operator()(const Nmg& s) const {
     });
 }
 
-// Only the outermost solid cells of a row matter.
+// The outermost solid cells of each row suffice.
 Box Tight::operator()(const Vol& s) const {
     return box_of(m, grid_matrix(s), [&](const auto& point) {
         const auto corners = [&](std::uint32_t x, std::uint32_t y, std::uint32_t z) {

@@ -1,9 +1,11 @@
-// A few planes: every pair of them meets in a line; what all others leave of it is an edge.
+// Boxes of convex polyhedra.
+//
+// A few planes: every pair of planes meets in a line, and the part of it that all other planes leave is an edge.
 //
 // Many planes: linear programming in three variables, after Seidel (1991). Planes are added one by one in random order.
-// A plane that the best point so far satisfies changes nothing; otherwise the new best point lies on it, and is found
-// by the same method in one dimension less. Everything starts inside a large cube; what still touches it at the end is
-// not bounded.
+// A plane that the best point so far satisfies changes nothing. Otherwise the new best point lies on the plane, and is
+// found by the same method in one dimension less. The search begins inside a large cube; a solution that still touches
+// the cube at the end is not bounded.
 
 #include "compile/solids/polyhedron.hpp"
 
@@ -16,17 +18,17 @@ namespace csgrt {
 
 namespace {
 
-// Up to this many planes, n^3 is less than what linear programming costs.
+// The number of planes up to which n^3 is less than the cost of linear programming.
 constexpr std::size_t few = 16;
-// Relative to distances: an edge this far outside a plane is on it.
+// A limit relative to distances: an edge this far outside a plane is on it.
 constexpr double on_edge = 1e-12;
-// Relative to the cube: a point this far outside a plane is on it.
+// A limit relative to the cube: a point this far outside a plane is on it.
 constexpr long double on_plane = 1e-15L;
-// Planes that meet at a smaller angle (radians) than this are parallel: where they meet is noise, and the box is the
-// larger for it.
+// The angle (radians) below which two planes count as parallel: their intersection is noise, and the box is the larger
+// for it.
 constexpr double parallel = 1e-10;
 
-/// sum n_i x_i <= d over N variables.
+/// A constraint sum n_i x_i <= d over N variables.
 template <std::size_t N>
 struct Constraint {
     std::array<long double, N> n;
@@ -42,7 +44,7 @@ long double dot(const std::array<long double, N>& a, const std::array<long doubl
     return sum;
 }
 
-/// The border of a constraint, on which variable k, the one with the largest coefficient, follows from the others.
+/// The border of a constraint. On it variable k, the one with the largest coefficient, follows from the others.
 template <std::size_t N>
 struct Border {
     Constraint<N> c;
@@ -55,7 +57,7 @@ struct Border {
         inverse = 1 / c.n[k];
     }
 
-    /// What another constraint says on this border.
+    /// The other constraint, restricted to this border.
     Constraint<N - 1> operator()(const Constraint<N>& other) const {
         Constraint<N - 1> result;
         const long double factor = other.n[k] * inverse;
@@ -78,7 +80,7 @@ struct Border {
 };
 
 /// Appends a constraint with a normal of about unit length. False if it cannot be satisfied; nothing is appended if it
-/// says nothing.
+/// always holds.
 template <std::size_t N>
 bool append(std::vector<Constraint<N>>& constraints, Constraint<N> c, long double reach) {
     const long double square = dot(c.n, c.n);
@@ -127,7 +129,7 @@ std::optional<Point<N>> farthest(const std::vector<Constraint<N>>& constraints, 
     return best;
 }
 
-/// In the cube of half-width `reach` around `center`.
+/// The box of the part that lies in the cube of half-width `reach` around `center`.
 std::optional<Box> box_within(const std::vector<Plane>& planes, const Wide& center, long double reach) {
     std::vector<Constraint<3>> constraints;
     for (const Plane& plane : planes) {
@@ -199,13 +201,13 @@ Box polyhedron_box(const std::vector<Plane>& planes, const Vec3& near) {
         if (const std::optional<Box> box = box_of_edges(planes, near)) return *box;
 
     std::vector<Plane> shuffled = planes;
-    std::uint64_t random = 0x9e3779b97f4a7c15u;  // a fixed start: the same planes, the same box
+    std::uint64_t random = 0x9e3779b97f4a7c15u;  // a fixed seed: the same planes, the same box
     for (std::size_t i = shuffled.size(); i > 1; --i) {
         random = random * 6364136223846793005u + 1442695040888963407u;
         std::swap(shuffled[i - 1], shuffled[(random >> 33) % i]);
     }
 
-    // Vertices may lie far beyond the feet of the planes, where these meet at a small angle.
+    // Vertices may lie far beyond the feet of the planes, where the planes meet at a small angle.
     long double foot = 0;
     for (const Plane& plane : planes) foot = std::max(foot, static_cast<long double>(std::fabs(plane.distance)));
     const long double reach = 1e6L * (foot > 0 ? foot : 1);
@@ -217,7 +219,7 @@ Box polyhedron_box(const std::vector<Plane>& planes, const Vec3& near) {
     };
     if (far(box->low) || far(box->high)) return whole_space;
 
-    // Again in a cube of its own size: rounding is relative to the cube.
+    // The second search runs in a cube of the solid's own size: rounding is relative to the cube.
     const Wide center = 0.5L * (wide(box->low) + wide(box->high));
     const long double size = diagonal(*box) + 1e-9L * reach;
     const std::optional<Box> finer = box_within(shuffled, center, size);

@@ -1,4 +1,4 @@
-// Solids that outlines make.
+// Boxes of solids that sketches make.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -16,7 +16,8 @@ struct Interval {
     long double least, greatest;
 };
 
-/// Around v + `reach` of each axis, moved along h. `reach(a, b)` gives the least and the greatest a u + b v.
+/// The box around v plus a flat shape in the plane of a and b, moved along h. `reach(a, b)` gives the least and the
+/// greatest a u + b v of the shape.
 template <class Reach>
 Box prism_box(const Wide& v, const Wide& a, const Wide& b, const Wide& h, const Reach& reach) {
     Wide low(0), high(0);
@@ -52,7 +53,7 @@ Box Tight::operator()(const Ebm& s) const {
     const std::vector<StraightLine> lines = cell_outline(s);
     return prism_box(transform_point(m, transform_point(s.matrix, Wide(0))), to_world(Wide(1, 0, 0)),
                      to_world(Wide(0, 1, 0)), to_world(Wide(0, 0, s.height)), [&](long double a, long double b) {
-                         Interval reach{0, 0};  // where there is no cell, any place will do
+                         Interval reach{0, 0};  // without cells any position will do
                          bool first = true;
                          for (const StraightLine& line : lines)
                              for (const long double at : {a * line.u0 + b * line.v0, a * line.u1 + b * line.v1}) {
@@ -64,7 +65,7 @@ Box Tight::operator()(const Ebm& s) const {
                      });
 }
 
-/// In each direction the profile is farthest where the turn leans most towards it.
+/// The profile is farthest in each direction at the angle of the turn that is nearest to the direction.
 Box Tight::operator()(const Revolve& s) const {
     const std::vector<CurvePiece> pieces = turned_pieces(s.sketch);
     const AxisFrame axes = axis_frame(s);

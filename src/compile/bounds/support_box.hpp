@@ -1,4 +1,4 @@
-// A box from how far a solid reaches in six directions: its support function.
+// Support: a box from a solid's support function, its extent in six directions.
 #pragma once
 
 #include "compile/linear.hpp"

@@ -1,4 +1,5 @@
-// What the files of this folder share: the box around everything that a ray can hit of one solid.
+// Tight boxes: the declarations that the files of this folder share. A tight box holds everything that a ray can hit of
+// one solid.
 #pragma once
 
 #include <cmath>
@@ -11,7 +12,7 @@ namespace csgrt {
 
 /// Half the size of an ellipsoid's box: columns are its semi-axes. An ellipse has a zero column.
 inline Wide half_size(const WideMatrix& axes) {
-    // Most axes lie along those of the world, and dividing by the largest of three takes long.
+    // Most axes are parallel to the world's, and a division by the largest of three takes long.
     const auto length = [](long double x, long double y, long double z) {
         const int parts = (x != 0) + (y != 0) + (z != 0);
         return parts > 1 ? std::hypot(x, y, z) : std::fabs(x + y + z);
@@ -32,8 +33,8 @@ inline Box parallelogram_box(const Matrix& m, const Wide& center, const Wide& a,
                       glm::abs(transform_direction(m, a)) + glm::abs(transform_direction(m, b)));
 }
 
-/// The box of a solid that `m` places, before it is rounded outward (see solid_box). bounds.cpp has the solids of
-/// planes and quadrics; a box by what supports it: support_box.hpp.
+/// The box of a solid under the matrix `m`, before it is rounded outward (see solid_box). bounds.cpp has the solids of
+/// planes and quadrics; support_box.hpp makes boxes from support functions.
 struct Tight {
     const Matrix& m;
 

@@ -1,6 +1,5 @@
-// Top down, each range of boxes cut in two (bvh_split.hpp). Ranges of many boxes go to a common queue, the others are
-// done in one piece; which of the two a range is depends on its size alone, so the result does not depend on the number
-// of threads.
+// Building from the top down: each range of boxes is cut in two (split.hpp). Ranges of many boxes go to a common queue;
+// a smaller range is one task. Its size alone decides, so the result does not depend on the number of threads.
 #include "compile/bvh/build.hpp"
 
 #include <algorithm>
@@ -18,7 +17,7 @@ namespace {
 
 using namespace bvh;
 
-constexpr std::size_t task_size = 16'384;  // boxes that are done in one piece
+constexpr std::size_t task_size = 16'384;  // boxes of a range that one task builds whole
 constexpr std::uint32_t none = 0xffffffff;
 constexpr std::uint32_t part_of_number = 1u << 14;
 
@@ -44,12 +43,13 @@ public:
     Hierarchy build();
 
 private:
-    /// A range of many boxes, and what became of it.
+    /// A range of many boxes, and the result of its task.
     struct Task {
         Range range;
-        std::uint32_t place;                      ///< of its first node: as many before it as there can be
-        std::uint32_t left = none, right = none;  ///< tasks; none: it was done in one piece
-        std::uint32_t nodes = 0;                  ///< of one piece; their `skip` counts from the first
+        std::uint32_t place;                      ///< index of its first node, with room before it for as many nodes as
+                                                  ///< there can be
+        std::uint32_t left = none, right = none;  ///< tasks; none: this task has built the whole range
+        std::uint32_t nodes = 0;                  ///< built by this task; their `skip` counts from the first of them
     };
 
     kernel::BvhNode node(const Range& range) const;
@@ -103,12 +103,12 @@ kernel::BvhNode Builder::node(const Range& range) const {
     return result;
 }
 
-/// Depth-first order: a node comes before its children, the left one right after it. `right`: memory for where the
-/// right child of each node is; none: a leaf.
+/// Builds a range in depth-first order: a node comes before its children, the left child right after it. `right`:
+/// memory for the index of each node's right child; none: a leaf.
 void Builder::in_one_piece(Task& task, std::vector<std::uint32_t>& right) {
     struct Open {
         Range range;
-        std::uint32_t parent;  // of a right child, which must be told where it begins
+        std::uint32_t parent;  // of a right child, whose index it needs
     };
     kernel::BvhNode* const nodes = nodes_.data() + task.place;
     right.clear();
@@ -138,7 +138,7 @@ void Builder::in_one_piece(Task& task, std::vector<std::uint32_t>& right) {
     }
 }
 
-/// Takes tasks from the queue until there are none and no other thread may bring more.
+/// Takes tasks from the queue until there are none and no other thread may add more.
 void Builder::work() {
     std::vector<std::uint32_t> memory;
     std::unique_lock lock(mutex_);
@@ -184,11 +184,11 @@ void Builder::work() {
     }
 }
 
-/// Closes the gaps between the pieces.
+/// Closes the gaps between the tasks' nodes.
 void Builder::join() {
     struct Open {
         std::uint32_t task;
-        std::uint32_t close;  // the node whose subtree ends here, if no task
+        std::uint32_t close;  // the node whose subtree ends here, if there is no task
     };
     std::vector<Open> open{{0, none}};
     std::uint32_t first = 0;

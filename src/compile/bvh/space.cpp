@@ -48,9 +48,9 @@ void set_box(kernel::BvhNode& node, const kernel::BvhNode& a, const kernel::BvhN
     }
 }
 
-/// Without the leaves of which no solid is wanted. `first`: the number of the first solid.
+/// The hierarchy without the leaves of which no solid is wanted. `first`: the number of the first solid.
 Nodes pruned(Nodes nodes, std::uint32_t first, const std::vector<bool>& wanted) {
-    std::vector<std::uint32_t> sizes(nodes.size());  // of what is left of subtrees
+    std::vector<std::uint32_t> sizes(nodes.size());  // of the rest of each subtree
     for (std::size_t i = nodes.size(); i-- > 0;) {
         kernel::BvhNode& node = nodes[i];
         if (node.leaf) {
@@ -63,7 +63,7 @@ Nodes pruned(Nodes nodes, std::uint32_t first, const std::vector<bool>& wanted) 
         }
         const std::size_t left = i + 1, right = nodes[left].skip;
         sizes[i] = sizes[left] + sizes[right] + (sizes[left] > 0 && sizes[right] > 0);
-        if (sizes[left] == 0 || sizes[right] == 0) {  // the other one takes its place
+        if (sizes[left] == 0 || sizes[right] == 0) {  // the other child replaces the node
             const kernel::BvhNode& other = nodes[sizes[left] > 0 ? left : right];
             set_box(node, other, other);
         } else {
@@ -80,7 +80,7 @@ Nodes pruned(Nodes nodes, std::uint32_t first, const std::vector<bool>& wanted) 
     return kept;
 }
 
-/// Two hierarchies under one root.
+/// Two hierarchies under one new root.
 Nodes joined(const Nodes& left, const Nodes& right) {
     if (left.empty()) return right;
     if (right.empty()) return left;

@@ -1,4 +1,4 @@
-// Where solids stand: the sphere around them, their order and their hierarchy.
+// Space: the positions of solids. It has the sphere around them, their order and their hierarchy.
 #pragma once
 
 #include <cstdint>
@@ -13,14 +13,15 @@ struct NumberedSpace {
     std::vector<std::uint32_t> order;  ///< the instances as solids are numbered
 };
 
-/// `boxes`: one an instance, infinite for those that are not bounded; of the others is the sphere. `reaches`: as
-/// Clipped has them. What no ray has to meet is left out of the hierarchy, so that solids are numbered as without.
+/// Numbers the solids and builds their hierarchy. `boxes`: one an instance, infinite for the unbounded; the sphere is
+/// around the others. `reaches`: as in Clipped. Solids that no ray has to meet are left out of the hierarchy, but keep
+/// their numbers.
 NumberedSpace space_of(const std::vector<Box>& boxes, const std::vector<Box>& reaches);
 
-/// The first leaf with a solid that starts a term, or the number of nodes.
+/// The index of the first leaf with a solid that starts a term, or the number of nodes.
 std::uint32_t starting_node(const std::vector<kernel::BvhNode>& nodes, const std::vector<kernel::SolidRecord>& solids);
 
-/// Which of so many solids rays may meet.
+/// Tells for each of `solids` solids whether rays may meet it.
 std::vector<bool> met_solids(const Space& space, std::size_t solids);
 
 }  // namespace csgrt

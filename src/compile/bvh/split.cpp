@@ -10,9 +10,10 @@ namespace csgrt::bvh {
 namespace {
 
 constexpr std::size_t bins = 16;
-constexpr std::size_t few = 8;  // boxes that are cut anywhere
+constexpr std::size_t few = 8;  // boxes up to which every cut is tried
 constexpr std::size_t most_in_leaf = 4;
-constexpr double cost_of_box = 1, cost_of_solid = 12;  // a solid takes some twelve times as long as a box
+constexpr double cost_of_box = 1, cost_of_solid = 12;  // a test of a solid takes about twelve times as long as a test
+                                                       // of a box
 
 double half_area(const FloatBox& box) {
     const auto size = [&](int i) { return static_cast<double>(box.high.v[i]) - static_cast<double>(box.low.v[i]); };
@@ -20,7 +21,7 @@ double half_area(const FloatBox& box) {
     return x * y + y * z + z * x;
 }
 
-/// Which bin the middle of a box falls in, on three axes. Axes along which all middles lie in one place have one bin.
+/// The bins of the boxes' middles, on three axes. An axis along which all middles are equal has one bin.
 class Bins {
 public:
     explicit Bins(const FloatBox& middles) {
@@ -37,15 +38,15 @@ public:
     bool has(int axis) const { return per_length_.v[axis] > 0; }
 
 private:
-    static constexpr float quarter = 0.25f;  // lest the difference of two large numbers be infinite
+    static constexpr float quarter = 0.25f;  // keeps the difference of two large numbers finite
     Quad low_, per_length_;
 };
 
-/// Boxes whose middle along `axis` falls in a bin below `bin` go left. axis < 0: there is no cut.
+/// A cut: boxes whose middle along `axis` falls in a bin below `bin` go left. axis < 0: there is no cut.
 struct Cut {
     int axis = -1;
     std::size_t bin = 0;
-    double cost = infinity;  ///< of both sides: half the area times the number of boxes
+    double cost = infinity;  ///< of both sides: half the surface area times the number of boxes
 };
 
 Cut best_cut(const std::vector<FloatBox>& boxes, const Range& range, const Bins& bin_of) {
@@ -70,7 +71,7 @@ Cut best_cut(const std::vector<FloatBox>& boxes, const Range& range, const Bins&
         std::array<double, bins> left_cost{};
         FloatBox box = nothing;
         std::size_t count = 0;
-        // A bin without boxes moves no border: what is beside it costs what it did.
+        // A bin without boxes does not change the sides, so the cost stays.
         for (std::size_t bin = 1; bin < bins; ++bin) {
             left_cost[bin] = left_cost[bin - 1];
             if (binned[bin - 1].count == 0) continue;
@@ -92,7 +93,7 @@ Cut best_cut(const std::vector<FloatBox>& boxes, const Range& range, const Bins&
     return best;
 }
 
-/// Moves the boxes that go left to the front and looks at both sides on the way.
+/// Moves the boxes that go left to the front, and measures both sides.
 std::size_t part(std::vector<FloatBox>& boxes, const Range& range, const Cut& cut, const Bins& bin_of, Range& left,
                  Range& right) {
     left.box = left.middles = right.box = right.middles = nothing;
@@ -112,14 +113,14 @@ std::size_t part(std::vector<FloatBox>& boxes, const Range& range, const Cut& cu
     }
 }
 
-/// Leaves the boxes in the order of the best axis; `bin` is how many go left.
+/// Leaves the boxes in the order of the best axis; `bin` is the number of boxes that go left.
 Cut best_cut_of_few(std::vector<FloatBox>& boxes, const Range& range) {
     std::array<FloatBox, few> ordered;
     std::array<FloatBox, few> best_order;
     const std::size_t count = range.size();
     const auto begin = boxes.begin() + static_cast<std::ptrdiff_t>(range.first);
     Cut best;
-    const int axes = count > 2 ? 3 : 1;  // two cost the same along each
+    const int axes = count > 2 ? 3 : 1;  // two boxes have the same cost along every axis
     for (int axis = 0; axis < axes; ++axis) {
         std::copy_n(begin, count, ordered.begin());
         const auto at = [&](const FloatBox& box) { return 0.5f * box.low.v[axis] + 0.5f * box.high.v[axis]; };
@@ -179,7 +180,7 @@ bool split(std::vector<FloatBox>& boxes, const Range& range, Range& left, Range&
     }
     left.first = range.first;
     left.last = right.first =
-        range.first + (cut.axis >= 0 ? cut.bin : range.size() / 2);  // all in one place: in the middle
+        range.first + (cut.axis >= 0 ? cut.bin : range.size() / 2);  // all middles are equal: the cut is in the middle
     right.last = range.last;
     measure(boxes, left);
     measure(boxes, right);

@@ -1,5 +1,5 @@
-// How a range of boxes is cut in two: by the surface area heuristic, among the borders of bins; a few boxes are put in
-// order and cut anywhere. Boxes are moved, not pointed at, so that all passes are in sequence.
+// Splitting a range of boxes in two by the surface area heuristic, among the borders of bins; a few boxes are sorted
+// and every cut is tried. Boxes are moved, not referred to, so that all passes run through memory in sequence.
 #pragma once
 
 #include <cstddef>
@@ -8,8 +8,8 @@
 
 namespace csgrt::bvh {
 
-/// Four, so that a compiler makes one instruction of them. The last one of `low` and `high` is the box's number, in two
-/// parts that a float holds exactly; what the arithmetic of boxes makes of them means nothing.
+/// Four floats, so that a compiler makes one instruction for them. The last float of `low` and of `high` is a part of
+/// the box's number, which a float holds exactly; arithmetic on it has no meaning.
 struct alignas(16) Quad {
     float v[4];
 };
@@ -20,7 +20,7 @@ struct FloatBox {
 
 inline constexpr float largest = std::numeric_limits<float>::max();
 inline constexpr FloatBox nothing{{{largest, largest, largest, largest}},
-                                  {{-largest, -largest, -largest, -largest}}};  // of no box
+                                  {{-largest, -largest, -largest, -largest}}};  // around no box
 
 inline void unite(FloatBox& to, const FloatBox& box) {
     for (int i = 0; i < 4; ++i) to.low.v[i] = box.low.v[i] < to.low.v[i] ? box.low.v[i] : to.low.v[i];
@@ -39,10 +39,10 @@ struct Range {
     std::size_t size() const { return last - first; }
 };
 
-/// Looks at the boxes of a range.
+/// Measures the boxes of a range.
 void measure(const std::vector<FloatBox>& boxes, Range& range);
 
-/// Moves the boxes of a range so that those of `left` come first, and measures both. False: the range is a leaf.
+/// Moves the boxes of a range so that those of `left` come first, and measures both sides. False: the range is a leaf.
 bool split(std::vector<FloatBox>& boxes, const Range& range, Range& left, Range& right);
 
 }  // namespace csgrt::bvh

@@ -1,4 +1,4 @@
-// Colour and finish on the way down to a region.
+// Attributes: colour and finish, inherited on the way down to a region.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,8 @@
 
 namespace csgrt {
 
-/// What the combinations above have set. A combination sets its own, unless one above set it and wants it inherited.
+/// The attributes that the combinations above have set. A combination sets its own, unless one above has set it and
+/// wants it inherited.
 struct Attributes {
     std::optional<Vec3> color;
     const Finish* finish = nullptr;  ///< in the scene
@@ -18,10 +19,10 @@ struct Attributes {
     void apply(const Combination& combination);
 };
 
-/// RANK_x: by which regions are numbered.
+/// RANK_x, by which regions are numbered.
 std::uint32_t rank_of(const RegionInfo& region);
 
-/// Everything but path and bounds. A null `region` is a solid outside all regions: everything 0.
+/// The region's info except path and bounds. A null `region` is a solid outside all regions: all members are 0.
 /// BRL-CAD's colour table colours a region by its id, unless a combination has given it a colour.
 RegionInfo describe_region(const Combination* region, const Attributes& attributes,
                            const std::vector<RegionColor>& region_colors);

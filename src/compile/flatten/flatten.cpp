@@ -21,7 +21,7 @@ namespace csgrt {
 
 namespace {
 
-/// A name list for a note: all of a few, the first few of many.
+/// Names for a note: all names if they are few, else the first few.
 std::string some(const std::vector<std::string>& names) {
     constexpr std::size_t shown = 5;
     std::string text;
@@ -42,7 +42,7 @@ std::vector<std::string> fastgen_regions(const FlatScene& flat) {
     return names;
 }
 
-/// Different regions get different paths where their legs do not tell them apart.
+/// Gives different regions different paths where the members' names do not tell them apart.
 void tell_apart(std::vector<FlatRegion>& regions) {
     std::unordered_set<std::string> taken;
     std::unordered_map<std::string, std::uint32_t> times;
@@ -55,7 +55,7 @@ void tell_apart(std::vector<FlatRegion>& regions) {
     }
 }
 
-/// Instances that only dropped parts of trees used are dropped, too.
+/// Drops instances that only dropped trees used.
 void drop_unused(FlatScene& flat) {
     constexpr std::uint32_t unused = 0xffffffff;
     std::vector<std::uint32_t> number(flat.instances.size(), unused);
@@ -106,7 +106,7 @@ struct Term {
     std::uint32_t node;
 };
 
-/// Terms as one thread flattens them.
+/// The terms that one thread flattens.
 struct TermsPart {
     struct Written {
         FlatRegion region;
@@ -116,7 +116,7 @@ struct TermsPart {
     FlatPart flat;
 };
 
-/// Asks for what the terms after number `i` will read first, most of the time.
+/// Prefetches the memory that the terms after number `i` will read first, most of the time.
 void prefetch_ahead(const Source& source, std::span<const Term> terms, std::size_t i) {
     const Scene& scene = source.scene;
     const auto object_at = [&](std::size_t term) {
@@ -150,10 +150,10 @@ TermsPart flatten_part(const Source& source, std::span<const Term> terms, std::a
     return part;
 }
 
-/// A term that is no region, and why.
+/// A term that is not a region, and why.
 struct NoRegion {
     std::size_t term;
-    bool contains_space;  ///< else it is empty
+    bool contains_space;  ///< false: the term is empty
     std::string path;
     Place place;
 };
@@ -202,20 +202,20 @@ private:
     bool has_unused_ = false;
 };
 
-/// An object that is asked for.
+/// An object that the caller named.
 struct Asked {
     const std::string& name;
     std::uint32_t object;
-    std::unique_ptr<RegionForest> forest;  ///< none: it was named before
-    std::size_t end;                       ///< of its terms
+    std::unique_ptr<RegionForest> forest;  ///< null: an equal object was named before
+    std::size_t end;                       ///< number behind its last term
 };
 
-/// Which regions there are.
+/// The regions that a walk finds.
 struct Found {
-    std::vector<Asked> objects;  ///< in their order
+    std::vector<Asked> objects;  ///< in the caller's order
     std::vector<Term> terms;
-    double solids = 0;             ///< in all terms
-    bool has_equal_paths = false;  ///< some may be
+    double solids = 0;             ///< of all terms
+    bool has_equal_paths = false;  ///< some paths may be equal
 };
 
 Found find_regions(const Source& source, const std::vector<std::string>& objects, bool air,
@@ -240,18 +240,18 @@ Found find_regions(const Source& source, const std::vector<std::string>& objects
         check(object, found.solids);
         asked.forest->for_each_term([&](std::uint32_t term) { found.terms.push_back({asked.forest.get(), term}); });
         asked.end = found.terms.size();
-        // One object may stand inside another that is asked for.
+        // An object may lie inside another named object.
         const bool is_inside = path.steps.size() > 1 && objects.size() > 1;
         found.has_equal_paths = found.has_equal_paths || asked.forest->has_equal_paths() || is_inside;
     }
     return found;
 }
 
-/// Their trees. Returns the terms that are no regions.
+/// Adds the terms' trees. Returns the terms that are not regions.
 std::vector<NoRegion> add_trees(const Source& source, const Found& found, FlatScene& result) {
     const std::vector<Term>& terms = found.terms;
     reserve_cleared(result.instances, std::min(source.scene.objects.size(),
-                                               static_cast<std::size_t>(found.solids)));  // no more, nearly always
+                                               static_cast<std::size_t>(found.solids)));  // at most, nearly always
     result.regions.reserve(terms.size());
     Joiner joiner(source, terms, result);
     constexpr std::size_t part_size = 512;
@@ -276,7 +276,7 @@ std::vector<NoRegion> add_trees(const Source& source, const Found& found, FlatSc
     return joiner.take_no_regions();
 }
 
-/// What there is to tell. Throws Error (scene): see flatten.
+/// Adds the warnings. Throws Error (scene): see flatten.
 void add_warnings(const Source& source, const Found& found, const std::vector<NoRegion>& no_regions,
                   FlatScene& result) {
     const Scene& scene = source.scene;

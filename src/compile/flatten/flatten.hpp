@@ -1,4 +1,4 @@
-// Scene -> regions with flat trees over placed solids: combinations, matrices and names are gone.
+// Flattening: makes regions with flat trees over placed solids of a Scene. Combinations, matrices and names are gone.
 #pragma once
 
 #include <cstdint>
@@ -12,37 +12,37 @@
 
 namespace csgrt {
 
-/// A solid in its place. Two places of one solid with bit-equal matrices are one instance.
+/// An instance: a solid under one transform. Equal solids with bit-equal matrices are one instance.
 struct Instance {
     std::uint32_t object = 0;        ///< into Scene::objects
-    std::uint32_t piece = 0;         ///< of a solid that is made of others
-    const Matrix* matrix = nullptr;  ///< from the root: M_top ... M_leg; those of one region mostly share it
+    std::uint32_t piece = 0;         ///< number of a part, if the solid is made of others
+    const Matrix* matrix = nullptr;  ///< from the root: M_top ... M_member; instances of one region mostly share it
 };
 
 struct FlatRegion {
-    RegionInfo info;  ///< all but the bounds
+    RegionInfo info;  ///< all members but the bounds
     FlatTree tree;    ///< leaves are instances
 };
 
 struct FlatScene {
     std::vector<std::vector<Matrix>> matrices;             ///< of the instances
-    std::vector<Instance> instances;                       ///< all that trees use, in the order of first use
-    std::vector<FlatRegion> regions;                       ///< by rank, those of one rank in the order of the walk
+    std::vector<Instance> instances;                       ///< all instances that trees use, in the order of first use
+    std::vector<FlatRegion> regions;                       ///< by rank; regions of one rank in the order of the walk
     std::unordered_map<std::uint32_t, Pieces> composites;  ///< by object: the solids that are made of others
     std::vector<Warning> warnings;
 };
 
-/// The shape of an instance, and what is cut off it.
+/// The shape of an instance, and the planes that cut it.
 const Shape& shape_of(const Scene& scene, const FlatScene& flat, const Instance& instance);
 const std::vector<Plane>& cuts_of(const FlatScene& flat, const Instance& instance);
 
-/// Follows `objects` down to solids. The scene must be sound as far as names and trees go; `instances`: see Validated.
-/// Throws Error (scene): too many solids, or a region that contains the empty space where no solid is; in a lenient
-/// scene such a region is left out.
+/// Flattens `objects`, down to solids. Names and trees of the scene must be sound; `instances`: see Validated. Throws
+/// Error (scene): too many solids, or a region that contains the empty space outside all solids; a lenient scene leaves
+/// such a region out.
 FlatScene flatten(const Scene& scene, const Names& names, const std::vector<std::uint64_t>& instances,
                   const std::vector<std::string>& objects, bool air, std::uint64_t max_instances = 0);
 
-/// The same of a scene whose findings do not matter.
+/// Flattens a scene whose findings do not matter.
 FlatScene flatten(const Scene& scene, const std::vector<std::string>& objects, bool air);
 
 }  // namespace csgrt

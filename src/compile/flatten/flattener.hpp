@@ -1,4 +1,4 @@
-// The tree of a region, combination by combination, down to its solids.
+// Flattener: writes the tree of a region, combination by combination, down to its solids.
 #pragma once
 
 #include <cstdint>
@@ -12,29 +12,29 @@
 
 namespace csgrt {
 
-/// What some of a scene's trees hold: a part of it is a thread's.
+/// The result of flattening some of a scene's trees. Each thread has its own part.
 struct FlatPart {
     struct Leaf {
         std::uint32_t object, piece, matrix;
     };
-    std::vector<Leaf> leaves;  ///< in the order of the trees; not each once
+    std::vector<Leaf> leaves;  ///< in the order of the trees; one solid may have several
     std::vector<Matrix> matrices;
     std::unordered_map<std::uint32_t, Pieces> composites;
     std::uint64_t references = 0;  ///< to combinations and solids
     bool has_unused = false;       ///< leaves that no tree holds any more
 };
 
-/// What a term's tree is: `value` everywhere, or where no solid is `outside`.
+/// The constants that a term's tree is: `value` everywhere, or `outside` where no solid is.
 struct Constants {
     Value value, outside;
 };
 
-/// Writes the tree of one term in postfix order, dropping what is empty (or everything) on the way.
+/// Writes the tree of one term in postfix order. Operands that are empty, or all of space, are dropped on the way.
 class Flattener {
 public:
     Flattener(const Source& source, FlatPart& result) : source_(source), result_(result) {}
 
-    /// Leaves are numbers in `result.leaves`.
+    /// Writes a term's tree. Its leaves are numbers in `result.leaves`.
     Constants write(const RegionForest& forest, std::uint32_t term, FlatTree& tree);
 
 private:
@@ -46,9 +46,9 @@ private:
     friend class Walk<Level>;
 
     void expand(std::uint32_t object, const Matrix& matrix);
-    /// Returns the level if it is a combination to walk.
+    /// Enters an object. Returns the level if it is a combination to walk.
     std::optional<Level> enter(std::uint32_t object, const Matrix& matrix);
-    // The visitor of the walk.
+    // The visitor of the walk calls this for each child.
     std::optional<Level> follow(const Open& parent, std::uint32_t node, std::uint32_t child);
     void operate(const Open& parent, std::uint32_t node);
     void nothing() { push(Value::nothing, Value::nothing); }
@@ -61,11 +61,12 @@ private:
     const Source& source_;
     FlatPart& result_;
     FlatTree* tree_ = nullptr;
-    // Operands. The nodes of one start at `firsts_` and end where the next one's start. A constant has none.
+    // Operands: the nodes of each begin at its entry in `firsts_` and end where the next operand's begin. A constant
+    // has no nodes.
     std::vector<std::size_t> firsts_;
     std::vector<Value> values_, outsides_;
     Walk<Level> walk_;
-    std::unordered_map<std::uint32_t, Value> hollow_;  ///< combinations without solids, and the constant that they are
+    std::unordered_map<std::uint32_t, Value> hollow_;  ///< combinations without solids, and the constant that each is
     std::uint64_t leaves_ = 0;
 };
 

@@ -1,4 +1,4 @@
-// Boolean operators over operands of which some are constants.
+// Folding: Boolean operators over operands of which some are constants.
 #pragma once
 
 #include <algorithm>
@@ -16,15 +16,15 @@ namespace csgrt {
 /// An operand: a tree of solids, the empty set, or all of space.
 enum class Value : std::uint8_t { tree, nothing, everything };
 
-/// What an operator comes to.
+/// The result of folding an operator.
 struct Folded {
     Value value;  ///< tree: `op` over the operands that are trees, in their order
     std::size_t trees;
     Operator op;
-    bool complement;  ///< of that tree
+    bool complement;  ///< of the tree
 };
 
-/// `operands`: at least one; of a complement one.
+/// Folds an operator. `operands`: at least one; for a complement exactly one.
 inline Folded fold(Operator op, std::span<const Value> operands) {
     const auto count = [&](Value value) {
         return static_cast<std::size_t>(std::count(operands.begin(), operands.end(), value));
@@ -47,13 +47,13 @@ inline Folded fold(Operator op, std::span<const Value> operands) {
             return result(tree_or(Value::nothing), Operator::union_, true);
         case Operator::xor_:
             return result(tree_or(Value::nothing), op, wholes % 2 == 1);
-        default:  // complement
+        default:  // a complement
             return result(operands[0], op, true);
     }
 }
 
-/// Puts the operator behind its operands, whose nodes begin at `first`; of a constant no nodes are left. Returns what
-/// it comes to.
+/// Appends the operator behind its operands, whose nodes begin at `first`; a constant result has no nodes. Returns the
+/// result's value.
 inline Value append_folded(std::vector<FlatTree::Node>& nodes, std::size_t first, Operator op,
                            std::span<const Value> operands) {
     const Folded folded = fold(op, operands);

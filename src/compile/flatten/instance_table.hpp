@@ -1,4 +1,4 @@
-// The places of solids, told apart while trees are joined.
+// Instance table: finds equal instances while trees are joined.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ class InstanceTable {
 public:
     explicit InstanceTable(std::size_t objects) : first_(objects, none) {}
 
-    /// The number of the instance in `all`, to which it is added if it is new.
+    /// Returns the number of the instance in `all`. A new instance is appended.
     std::uint32_t number(const Instance& instance, std::vector<Instance>& all) {
         const auto next = static_cast<std::uint32_t>(all.size());
         std::uint32_t& first = first_[instance.object];
@@ -25,7 +25,7 @@ public:
             all.push_back(instance);
             return next;
         }
-        // Not the only place of its object: looked up among those that are not the first ones.
+        // The object has several instances: this one is looked up among those that are not the first.
         if (equal(all[first], instance)) return first;
         const std::uint64_t hash = hash_of(instance);
         const std::uint32_t last = cells_.find(hash);
@@ -55,8 +55,8 @@ private:
     }
 
     std::vector<std::uint32_t> first_;   ///< one an object: its first instance
-    CellTable cells_;                    ///< of those that are not: the last one of each hash
-    std::vector<std::uint32_t> others_;  ///< one an instance: the one before it of the same hash
+    CellTable cells_;                    ///< of the other instances: the last of each hash
+    std::vector<std::uint32_t> others_;  ///< one an instance: the previous instance of the same hash
 };
 
 }  // namespace csgrt

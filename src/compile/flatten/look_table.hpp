@@ -1,4 +1,5 @@
-// What a scene gives single regions, or all below a path, in place of their combinations' colours and finish.
+// Table of appearances that a scene gives single regions, or all regions below a path, in place of their combinations'
+// colours and finish.
 #pragma once
 
 #include <cstdint>
@@ -10,13 +11,13 @@
 
 namespace csgrt {
 
-/// Refers to the looks.
+/// Finds the appearances of regions by path. It refers to the scene's list.
 class LookTable {
 public:
     explicit LookTable(const std::vector<Look>& looks);
-    /// The numbers of those that concern a region, ascending.
+    /// The numbers of the entries that concern a region, ascending.
     std::vector<std::uint32_t> find(std::string_view path) const;
-    /// Gives a region, whose path is known, what concerns it.
+    /// Applies to a region, whose path is known, the entries that concern it.
     void apply(RegionInfo& region) const;
 
 private:

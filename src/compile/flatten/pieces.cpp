@@ -9,9 +9,9 @@ namespace csgrt {
 
 namespace {
 
-/// Directions that differ by less than this sine run straight on.
+/// The sine of the angle below which two directions run straight on.
 constexpr double straight = 1e-9;
-/// Parts of a pipe that are shorter than this part of its width are left out.
+/// The length of a part of a pipe, relative to its width, below which the part is left out.
 constexpr double shortest = 1e-9;
 
 Vec3 across(const Vec3& axis) {
@@ -26,12 +26,13 @@ Tgc round_cone(const Vec3& v, const Vec3& h, double radius, double top_radius) {
     return {v, h, radius * a, radius * b, top_radius * a, top_radius * b};
 }
 
-/// A round bend: from `from` to `to` on the circle around `center`, which the pipe meets at right angles to the radius.
+/// A round bend from `from` to `to`, on the circle around `center`. The pipe meets the circle at right angles to the
+/// radius.
 struct Bend {
     Vec3 center, axis;
     double radius;
     Vec3 from, to;   ///< ends of the centre line
-    Vec3 into, out;  ///< unit directions of the pipe there
+    Vec3 into, out;  ///< unit directions of the pipe at `from` and `to`
 };
 
 Piece bend_piece(const Bend& bend, double tube) {
@@ -69,7 +70,7 @@ private:
 
 Pieces pieces_of_pipe(const Pipe& pipe) {
     Collector collector;
-    Vec3 at = pipe.points.front().position;  // where the straight part begins
+    Vec3 at = pipe.points.front().position;  // the beginning of the straight part
     for (std::size_t i = 0; i + 1 < pipe.points.size(); ++i) {
         const Pipe::Point &p = pipe.points[i], &q = pipe.points[i + 1];
         const Vec3 into = unit(q.position - p.position);
@@ -80,7 +81,7 @@ Pieces pieces_of_pipe(const Pipe& pipe) {
             const Vec3 normal = cross(into, out);
             const double sine = length(normal), cosine = dot(into, out);
             if (sine > straight) {
-                // bend x tan(half the angle); of a pipe that turns nearly back 1 + cosine has few digits
+                // bend x tan(half the angle); if the pipe turns nearly back, 1 + cosine has few digits
                 const double tangent = q.bend * (cosine > -0.5 ? sine / (1 + cosine) : (1 - cosine) / sine);
                 const Vec3 inward = cross(unit(normal), into);
                 to = q.position - tangent * into;
@@ -109,7 +110,7 @@ Pieces pieces_of_cline(const Cline& cline) {
     return collector.take();
 }
 
-/// The surface of its faces.
+/// The surface of a concave arb's faces.
 Pieces pieces_of_concave(const Arb& arb) {
     Nmg surface;
     surface.vertices.assign(arb.vertices.begin(), arb.vertices.end());

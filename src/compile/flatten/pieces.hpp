@@ -1,5 +1,5 @@
-// Solids that are made of others: a pipe is tubes and bends, a cline a cylinder with or without a bore; and an arb that
-// is not convex, the surface of its faces.
+// Parts of solids that are made of others. A pipe is tubes and bends, a cline a cylinder with or without a bore, and an
+// arb that is not convex the surface of its faces.
 #pragma once
 
 #include <cstdint>
@@ -11,14 +11,14 @@
 
 namespace csgrt {
 
-/// One solid as the kernels know it.
+/// One solid in a form that the kernels know.
 struct Piece {
     Shape shape;
-    std::vector<Plane> cuts;  ///< a torus only, two at most: what is inside all of them is kept
+    std::vector<Plane> cuts;  ///< a torus only, two at most: the part inside all of them is kept
 };
 
 struct Pieces {
-    std::vector<Piece> pieces;  ///< none: the solid is one by itself
+    std::vector<Piece> pieces;  ///< empty: the solid is not made of others
     FlatTree tree;              ///< leaves are numbers of pieces
 };
 

@@ -7,7 +7,7 @@
 
 namespace csgrt {
 
-// Groups of groups hold more references than solids, though not many times more.
+// The limit: groups of groups hold more references than solids, but not many times more.
 ReferenceLimit::ReferenceLimit(const Scene& scene, std::uint64_t max_instances)
     : most_(8 * std::max({max_instances, Limits::instances, std::uint64_t{scene.objects.size()}})) {}
 
@@ -51,7 +51,7 @@ Matrix RegionForest::matrix_of(const RegionStart& start) const {
 Attributes RegionForest::attributes_of(const RegionStart& start) const {
     Attributes attributes;
     if (start.above != none) attributes = above_[start.above].attributes;
-    if (inside_ != none) return attributes;  // below a region nothing sets them
+    if (inside_ != none) return attributes;  // combinations below a region do not set attributes
     if (const auto* combination = std::get_if<Combination>(&source_.scene.objects[start.object]))
         attributes.apply(*combination);
     return attributes;
@@ -144,7 +144,8 @@ void RegionForest::for_each_term(const std::function<void(std::uint32_t)>& call)
     if (root_.value != Value::tree) return;
     std::vector<bool> starts_with_terms(starts_.size());
 
-    // What still has to be done to a term that is found further down, innermost first: a list that terms share.
+    // Operators that still have to be applied to a term that is found further down, innermost first: a list that terms
+    // share.
     enum class Pending { subtract_right, intersect_right, intersect_left };
     struct Context {
         Pending pending;
@@ -174,7 +175,7 @@ void RegionForest::for_each_term(const std::function<void(std::uint32_t)>& call)
             push(node.left, subtract ? Pending::subtract_right : Pending::intersect_right, node.right, context);
             continue;
         }
-        // A term: apply what is pending, until another operand must be taken apart first.
+        // A term is complete when the pending operators are applied, until another operand must be taken apart first.
         while (context != none) {
             const Context c = contexts[context];
             context = c.outer;

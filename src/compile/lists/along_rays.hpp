@@ -1,4 +1,4 @@
-// The arrays of whole lines -> an object a ray.
+// Partitions along whole lines: from arrays to an object a ray.
 #pragma once
 
 #include <limits>
@@ -11,7 +11,7 @@ namespace csgrt {
 inline constexpr RayRange whole_line{-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
 inline constexpr Fields all_fields{.solids = true, .normals = true, .overlaps = true};
 
-/// The arrays have all fields. What ends at a t below 0 is left out.
+/// Converts arrays that have all fields. Partitions that end at t < 0 are left out.
 std::vector<RayPartitions> along_rays(const Partitions& all);
 
 }  // namespace csgrt

@@ -1,4 +1,4 @@
-// A grid of rays as kernels make it: the camera of a frame.
+// Grid of rays: the camera of a frame, with which kernels make the rays.
 #pragma once
 
 #include <csgrt/rays.hpp>
@@ -7,10 +7,10 @@
 
 namespace csgrt {
 
-/// Throws Error (usage) for a grid that has a ray which Limits excludes.
+/// Throws Error (usage) for a grid with a ray that Limits excludes.
 void check_grid(const RayGrid& grid);
 
-/// The frame's view_ray(column, row) is the grid's ray.
+/// Sets the frame's camera: view_ray(column, row) is then the grid's ray.
 void put_grid(const RayGrid& grid, kernel::Frame& frame);
 RayGrid grid_of(const kernel::Frame& frame);
 

@@ -1,4 +1,4 @@
-// Partitions that several regions of one rank claim -> rows of overlaps, with all claimants.
+// Overlaps: makes rows of the partitions that several regions of one rank claim, with all claimants.
 #pragma once
 
 #include <cstdint>
@@ -10,25 +10,26 @@
 
 namespace csgrt {
 
-/// What kernels 1 to 4 leave of a batch's rays, in double (kernels/shared/layout.h).
+/// The results of kernels 1 to 4 for a batch's rays, in double (kernels/shared/layout.h).
 struct TracedBatch {
-    std::vector<kernel::RayCount> offsets;  ///< one a ray and one behind
+    std::vector<kernel::RayCount> offsets;  ///< one a ray, and one more
     std::vector<kernel::End> ends;
     std::vector<kernel::PartitionNode> nodes;
 };
 
-/// Where it stands.
+/// Pointers to such results.
 struct TracedRays {
-    const kernel::RayCount* offsets;  ///< one a ray and one behind
+    const kernel::RayCount* offsets;  ///< one a ray, and one more
     const kernel::End* ends;
     const kernel::PartitionNode* nodes;
 };
 
-/// `pieces`: kernel 6's, by ray and by distance.
+/// Appends the overlaps of a batch. `pieces`: kernel 6's records, by ray and by distance.
 void append_overlaps(const CompiledScene& scene, std::span<const kernel::OverlapPiece> pieces, const TracedRays& traced,
                      RowMemory& rows);
 
-/// The next one of a ray; it is joined with the one before where the same regions go on. `claimants`: ascending.
+/// Appends the next overlap of a ray. It is joined with the previous one if the same regions go on. `claimants`:
+/// ascending.
 void append_overlap(std::uint32_t ray, double in, double out, std::span<const std::uint32_t> claimants,
                     RowMemory& rows);
 

@@ -16,8 +16,8 @@
 namespace csgrt {
 namespace {
 
-/// The power of two that a direction is divided by before it is shot, so that its squares, and floats of it, are
-/// numbers. 0 for all of usual length.
+/// The power of two by which a direction is divided before it is traced, so that its squares, also in float, do not
+/// overflow or vanish. 0 for directions of usual length.
 int exponent_of(const Vec3& direction) {
     constexpr double usual = 0x1p32;
     const double size = largest(direction);
@@ -90,7 +90,7 @@ RayList::RayList(std::span<const Vec3> points)
     });
 }
 
-/// As it is shot, of a grid without its exponent.
+/// The ray as it is traced, without the exponent of a grid.
 Ray RayList::ray(std::uint64_t i) const {
     if (is_grid_)
         return ray_of(

@@ -1,4 +1,4 @@
-// A list of rays as a call brings it -> the kernels' records.
+// Ray list: makes the kernels' records of a caller's rays.
 #pragma once
 
 #include <algorithm>
@@ -13,14 +13,14 @@ namespace csgrt {
 
 class RayList {
 public:
-    /// Throws Error (usage) that has the index of the first ray that Limits or its range excludes. What it is given
-    /// must outlive it.
+    /// Checks and refers to the rays, which must outlive the list. Throws Error (usage) with the index of the first ray
+    /// that Limits excludes, or whose range is wrong.
     explicit RayList(const Rays& rays, const RayRanges& ranges = {});
-    /// Points, as rays along x whose ranges are the points alone.
+    /// Makes rays of points: along x, with a range that is the point alone.
     explicit RayList(std::span<const Vec3> points);
 
     std::uint64_t size() const { return numbers_.empty() ? size_ : numbers_.size(); }
-    /// The rays of these numbers, which must outlive the list.
+    /// The rays of some numbers, which must outlive the list.
     RayList some(std::span<const std::uint32_t> numbers) const {
         RayList list = *this;
         list.numbers_ = numbers;
@@ -33,28 +33,29 @@ public:
         list.size_ = count;
         return list;
     }
-    /// A direction of unusual length is divided by a power of two, and the range multiplied by it.
+    /// The record of a ray. A direction of unusual length is divided by a power of two, and the range multiplied by it.
     kernel::RayRecord record(std::uint64_t ray) const;
-    /// Those of `records.size()` rays from the first on.
+    /// Fills `records` with those of the rays from `first` on.
     void fill(std::uint64_t first, std::span<kernel::RayRecord> records) const {
         for (kernel::RayRecord& record : records) record = this->record(first++);
     }
 
-    /// Whether devices can make the rays: they are all of a grid, and have one range.
+    /// Whether devices can make the rays: all are of a grid, and have one range.
     bool is_grid() const { return is_grid_ && numbers_.empty() && ranges_.each.empty(); }
-    /// As kernels make them; see put_grid.
+    /// Sets the camera with which kernels make the rays; see put_grid.
     void put_camera(kernel::Frame& frame) const;
-    /// A ray that runs in one of these planes is evaluated on the sides that they keep; nothing else is cut.
+    /// Sets planes of a view. A ray that runs in one of them is evaluated on the sides that the plane keeps; nothing
+    /// else is cut.
     void cut_by(std::span<const kernel::PlaneRecord> planes) { planes_ = planes; }
     void put_planes(kernel::Frame& frame) const {
         std::ranges::copy(planes_, frame.clip);
         frame.clip_count = static_cast<std::uint32_t>(planes_.size());
     }
     RayRange range() const { return {scaled(ranges_.all.t_near), scaled(ranges_.all.t_far)}; }
-    /// Of the list's first ray, among the grid's.
+    /// The number of the list's first ray among the grid's.
     std::uint64_t first() const { return first_; }
 
-    /// Distances in the answer become those in lengths of the rays' own directions.
+    /// Converts the answer's distances to lengths of the rays' own directions.
     void restore_lengths(Partitions& answer) const;
     void restore_lengths(Array<double>& of_rays) const;
 
@@ -70,7 +71,7 @@ private:
     std::uint64_t first_ = 0, size_ = 0;
     bool is_grid_ = false, is_any_scaled_ = false;
     kernel::Frame camera_{};  ///< of a grid
-    int exponent_ = 0;        ///< of all directions of a grid, which `camera_` has without it
+    int exponent_ = 0;        ///< of all directions of a grid; `camera_` is without it
 };
 
 }  // namespace csgrt

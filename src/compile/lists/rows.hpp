@@ -1,5 +1,5 @@
-// What a batch of a list's rays gives: rows, ray by ray. Kernel 6 and the reference write them; RowSink puts batches
-// into the caller's arrays.
+// Rows: the answer of a batch of a list's rays, ray by ray. Kernel 6 and the reference write rows; RowSink copies
+// batches into the caller's arrays.
 #pragma once
 
 #include <cstddef>
@@ -13,17 +13,17 @@
 
 namespace csgrt {
 
-/// A part of a ray that several regions claim: the numbers from `first_region` on up to the next row's.
+/// A part of a ray that several regions claim: the numbers from `first_region` on, up to the next row's.
 struct OverlapRow {
     double in, out;
-    std::uint32_t ray;  ///< of the batch
+    std::uint32_t ray;  ///< number within the batch
     std::size_t first_region;
 };
 
-/// Arrays that nobody asked for are null.
+/// Pointers to a batch's rows. Arrays that the caller does not want are null.
 struct RowView {
-    std::uint64_t first = 0;                   ///< the batch's first ray, of the list
-    std::span<const kernel::RayCount> places;  ///< of each ray, and one behind: rows before it, in `segments`
+    std::uint64_t first = 0;                   ///< number of the batch's first ray in the list
+    std::span<const kernel::RayCount> places;  ///< one a ray, and one more: the number of rows before it, in `segments`
     const std::int32_t* regions = nullptr;
     const double *in = nullptr, *out = nullptr;
     const std::int32_t *in_solids = nullptr, *out_solids = nullptr;
@@ -35,7 +35,7 @@ struct RowView {
     std::size_t rows() const { return places.back().segments; }
 };
 
-/// Memory for them, which is used again.
+/// Memory for rows, which is used again.
 struct RowMemory {
     std::vector<kernel::RayCount> places;
     std::vector<std::int32_t> regions, in_solids, out_solids;
@@ -51,7 +51,7 @@ struct RowMemory {
     std::size_t bytes() const;
 };
 
-/// At least `size` elements; what was there stays.
+/// Resizes to at least `size` elements, and keeps the contents.
 template <class T>
 T* room_for(std::vector<T>& memory, std::size_t size) {
     if (memory.size() < size) memory.resize(size + size / 4);

@@ -12,9 +12,10 @@
 namespace csgrt {
 namespace {
 
-constexpr std::size_t most_kept = std::size_t{16} << 20;  ///< bytes, more or less
+constexpr std::size_t most_kept = std::size_t{16} << 20;  ///< bytes, approximately
 
-/// Of a batch that a device answered whole, by several threads; smaller ones come from several already.
+/// Runs work on several threads, for a batch that a device answered whole; smaller batches come from several threads
+/// already.
 template <class Work>
 void in_parts(std::size_t count, const Work& work) {
     constexpr std::size_t part = 1 << 16;
@@ -154,7 +155,7 @@ PixelSink::PixelSink(Array<std::int32_t>& pixels, std::uint32_t width, std::uint
     pixels.resize(rays * width);
 }
 
-/// The pixels whose middles lie in [in, out).
+/// Fills the pixels whose middles lie in [in, out).
 void PixelSink::fill(std::int32_t* line, double in, double out, std::int32_t value) const {
     const auto pixel = [&](double t) {
         return static_cast<std::ptrdiff_t>(std::clamp(std::ceil(t - 0.5), 0.0, static_cast<double>(width_)));

@@ -1,4 +1,4 @@
-// Rows of batches that end in any order -> the caller's arrays.
+// Row takers: copy the rows of batches, which end in any order, into the caller's arrays.
 #pragma once
 
 #include <condition_variable>
@@ -10,7 +10,7 @@
 
 namespace csgrt {
 
-/// Who takes the rows of a list's batches.
+/// The receiver of the rows of a list's batches.
 class RowTaker {
 public:
     explicit RowTaker(Fields fields, bool first_row = false) : fields_(fields), first_row_(first_row) {}
@@ -19,15 +19,15 @@ public:
     virtual ~RowTaker() = default;
 
     Fields fields() const { return fields_; }
-    /// Whether it takes of each ray the first row alone.
+    /// Whether it takes only the first row of each ray.
     bool first_row() const { return first_row_; }
-    /// Any thread. Copies what the caller may then use again.
+    /// Copies a batch's rows; then the caller may use the memory again. Any thread.
     virtual void put(const RowView& rows) = 0;
-    /// A batch will not come: nobody waits for it any more.
+    /// Called when a batch will not come: nobody waits for it any more.
     virtual void stop() {}
-    /// Whether all that was put of a ray are the rows of another one, to the last bit.
+    /// Whether the rows of a ray are those of another ray, to the last bit.
     virtual bool has(std::uint64_t ray, const Partitions& rows, std::size_t other) const = 0;
-    /// Calls make(), which is to put a batch; if it throws, the batch will not come.
+    /// Calls make(), which has to put a batch; if it throws, the batch will not come.
     template <class Make>
     void guard(const Make& make) {
         try {
@@ -43,13 +43,14 @@ private:
     const bool first_row_;
 };
 
-/// Puts rows in the order of the rays.
+/// Writes rows to the caller's arrays in the order of the rays.
 class RowSink final : public RowTaker {
 public:
-    /// Empties the arrays. `rays`: how many there will be. `rows` must outlive this.
+    /// Empties the arrays. `rays`: the number of rays of the list. `rows` must outlive the object.
     RowSink(Partitions& rows, Fields fields, std::uint64_t rays);
 
-    /// Waits while too much is kept that earlier rays must come before; the batch that all wait for never does.
+    /// Copies the rows, or waits while too many rows are kept for which earlier rays are missing. The batch that all
+    /// wait for never waits.
     void put(const RowView& rows) override;
     void stop() override;
     bool has(std::uint64_t ray, const Partitions& rows, std::size_t other) const override;
@@ -66,19 +67,19 @@ private:
     bool is_stopped_ = false;
 };
 
-/// What is wanted of the first row of each ray; null: not that.
+/// Arrays for the first row of each ray; null: not wanted.
 struct HitArrays {
     Array<std::int32_t>* regions = nullptr;
     Array<double>* distances = nullptr;
     Array<std::int32_t>* solids = nullptr;
     Array<Vec3>* normals = nullptr;
-    Array<std::uint8_t>* hits = nullptr;  ///< 1: there is one
+    Array<std::uint8_t>* hits = nullptr;  ///< 1: the ray has a row
 };
 
 /// Takes the first row of each ray.
 class HitSink final : public RowTaker {
 public:
-    /// Sizes the arrays, which must outlive this.
+    /// Sizes the arrays, which must outlive the object.
     HitSink(const HitArrays& arrays, std::uint64_t rays);
 
     void put(const RowView& rows) override;
@@ -88,12 +89,12 @@ private:
     const HitArrays to_;
 };
 
-/// Takes the pixels of a slice: of each ray a row of them, the length of whose direction is a pixel's.
+/// Takes the pixels of a slice: each ray is a row of pixels, and its direction has the length of a pixel.
 class PixelSink final : public RowTaker {
 public:
     static constexpr std::int32_t nothing = -1, overlap = -2;
 
-    /// Sizes the array, which must outlive this.
+    /// Sizes the array, which must outlive the object.
     PixelSink(Array<std::int32_t>& pixels, std::uint32_t width, std::uint64_t rays);
 
     void put(const RowView& rows) override;

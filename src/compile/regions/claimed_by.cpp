@@ -16,7 +16,8 @@ CompiledScene claimed_by(const CompiledScene& scene, std::vector<std::uint8_t> c
         for (std::uint32_t i = solid.first_start; i < solid.first_start + solid.start_count; ++i)
             if (claims[scene.starts[i].region]) starts.push_back(scene.starts[i]);
         const auto count = static_cast<std::uint32_t>(starts.size()) - first;
-        // What claims where it alone covers is known if nothing or all of it is left. `begins` may say too much.
+        // The claim of the solid alone is known if all or none of its terms are left. `begins` may have more bits than
+        // needed.
         if (count < solid.start_count) solid.alone = count == 0 ? NONE : ALONE_UNKNOWN;
         solid.first_start = first;
         solid.start_count = count;

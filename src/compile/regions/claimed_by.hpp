@@ -1,4 +1,4 @@
-// A compiled scene of which only some regions claim partitions.
+// Claims of some regions: a compiled scene of which only these claim partitions.
 #pragma once
 
 #include <cstdint>
@@ -8,8 +8,8 @@
 
 namespace csgrt {
 
-/// The same regions, trees and solids under the same numbers; those with `claims` 0 claim nothing, as if they were not
-/// there. Shares all but the solids' records and the starts.
+/// Returns a scene with the same regions, trees and solids under the same numbers. Regions with `claims` 0 claim
+/// nothing, as if they were not there. The result shares everything except the solids' records and the starts.
 CompiledScene claimed_by(const CompiledScene& scene, std::vector<std::uint8_t> claims);
 
 }  // namespace csgrt

@@ -1,10 +1,10 @@
-// Each operand on the stack is one of
+// Linearizing a tree. Each operand on the stack is one of
 //
 //     any of p      all of p, none of n      an odd number of p
 //
-// where p and n are lists of finished binary nodes, and perhaps the complement of that. Unions, intersections and
+// where p and n are lists of finished binary nodes, or the complement of such a set. Unions, intersections and
 // differences all come from "all of p, none of n" by de Morgan's laws, so chains of one kind become one list,
-// complements move upward until they vanish, and x - (y - z) or x + !y take no special care. A list is finished as a
+// complements move upward until they vanish, and x - (y - z) or x + !y need no special case. A list is finished as a
 // balanced tree, whatever chain the model has, so that the walk's way to any leaf is short. Lists are linked: joining
 // two takes no time, however long a chain of the model is.
 
@@ -88,7 +88,7 @@ std::uint32_t Linearizer::add_leaf(std::uint32_t solid) {
     return static_cast<std::uint32_t>(nodes_.size() - 1);
 }
 
-// The way into a left child is pushed, the way into a right child is not.
+// The stack's size: the way into a left child is pushed, the way into a right child is not.
 std::uint32_t Linearizer::add_node(std::uint32_t op, std::uint32_t left, std::uint32_t right) {
     nodes_.push_back({op, left, right, std::max(nodes_[left].stack + 1, nodes_[right].stack)});
     return static_cast<std::uint32_t>(nodes_.size() - 1);
@@ -99,10 +99,10 @@ std::uint32_t Linearizer::add_difference(std::uint32_t from, std::uint32_t what)
     return add_node(OP_REVERSE_DIFFERENCE, what, from);
 }
 
-/// All members under one operator. Those with the least stacks are joined first, so that the way to each member is
-/// short and, because two equal stacks make one of one more, no tree of n leaves needs more than log2(n) entries.
+/// Joins all members under one operator. Those with the least stacks are joined first. So the way to each member is
+/// short and, because only two equal stacks make one of one more, no tree of n leaves needs more than log2(n) entries.
 std::uint32_t Linearizer::join(std::uint32_t op, const List& list) {
-    using Member = std::tuple<std::uint32_t, std::uint32_t, std::uint32_t>;  // stack, when it came, node
+    using Member = std::tuple<std::uint32_t, std::uint32_t, std::uint32_t>;  // stack, order of arrival, node
     std::priority_queue<Member, std::vector<Member>, std::greater<>> members;
     std::uint32_t came = 0;
     for (std::uint32_t cell = list.first; cell != none; cell = cells_[cell].next)
@@ -126,7 +126,7 @@ std::uint32_t Linearizer::finish(const Operand& operand) {
     return operand.n.empty() ? all : add_difference(all, join(OP_UNION, operand.n));
 }
 
-/// All of the operands from `first` on, each perhaps complemented.
+/// The intersection of the operands from `first` on, each perhaps complemented.
 Linearizer::Operand Linearizer::conjunction(std::size_t first) {
     Operand result{Kind::all, {}, {}, false};
     for (std::size_t i = first; i < operands_.size(); ++i) {
@@ -191,7 +191,7 @@ std::uint32_t Linearizer::build(const FlatTree& tree) {
                 break;
             default:
                 result = conjunction(first);
-                break;  // intersection
+                break;  // an intersection
         }
         operands_.resize(first, result);
         operands_.push_back(result);

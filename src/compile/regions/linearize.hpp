@@ -1,4 +1,4 @@
-// Trees -> 32-bit words, for the walk of the kernels (layout.h says how a word reads).
+// Linearizing trees: makes 32-bit words, for the walk of the kernels (layout.h says how a word reads).
 #pragma once
 
 #include <cstdint>
@@ -9,15 +9,15 @@
 namespace csgrt {
 
 struct LinearTree {
-    std::uint32_t first_word = 0, word_count = 0;  ///< in the words that were given
+    std::uint32_t first_word = 0, word_count = 0;  ///< within `words`
     std::uint32_t stack = 0;                       ///< entries that the walk needs at most
 };
 
-/// Appends the tree to `words`. It must be false where no solid is. One without nodes has no words.
-/// Throws Error (scene) if it does not fit 29 bits of position or of solid.
+/// Appends the tree to `words`. The tree must be false where no solid is. A tree without nodes has no words. Throws
+/// Error (scene) if it does not fit 29 bits of position or of solid.
 LinearTree linearize(const FlatTree& tree, std::vector<std::uint32_t>& words);
 
-/// Throws that error if the trees of all regions have too many words together.
+/// Throws the same error if the trees of all regions have too many words together.
 void check_tree_words(std::uint64_t count);
 
 }  // namespace csgrt

@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::size_t chunk_size = 512;
 
-/// What a chunk of regions comes to; positions of words count from its first.
+/// The packed form of a chunk of regions; positions count from its first word.
 struct RegionChunk {
     std::vector<std::uint32_t> words;
     std::uint32_t first_word = 0;

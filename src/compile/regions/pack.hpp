@@ -1,4 +1,4 @@
-// Regions -> their words, terms and boxes.
+// Packing regions: makes their words, terms and boxes.
 #pragma once
 
 #include <cstdint>
@@ -14,8 +14,8 @@ struct PackedRegions {
     std::vector<kernel::SolidRecord> solids;  ///< see list_terms
 };
 
-/// `order`: the instances as solids are numbered; `brlcad_boxes`: one an instance; `trees`: what terms are made of, see
-/// Clipped.
+/// Packs the regions. `order`: the instances as solids are numbered; `brlcad_boxes`: one an instance; `trees`: the
+/// trees to make terms of, see Clipped.
 PackedRegions pack_regions(const FlatScene& flat, const std::vector<FlatTree>& trees,
                            const std::vector<std::uint32_t>& order, const std::vector<Box>& brlcad_boxes);
 

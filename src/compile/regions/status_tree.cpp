@@ -26,15 +26,16 @@ public:
     }
 
 private:
-    /// Of a path: a leaf, which is its end, or the smaller operand of an operator and what that makes of the larger.
+    /// An item of a path: the leaf at its end, or an operator's smaller operand and the effect of the operator on the
+    /// larger one.
     struct Item {
         std::uint32_t node, rake;
     };
-    /// A subtree, a path of its own, whose root is that cluster. `rake`: what becomes of its value there.
+    /// A subtree, which is a path of its own with `cluster` as its root. `rake`: the effect of its value on the parent.
     struct Subtree {
         std::uint32_t node, cluster, rake;
     };
-    /// Some of a path's items, which that cluster composes.
+    /// A range of a path's items, which `cluster` composes.
     struct Range {
         std::size_t first, end;
         std::uint32_t cluster, rake;
@@ -94,11 +95,12 @@ private:
         }
     }
 
-    /// Where the halves weigh the same, or nearly so.
+    /// Splits a range where both halves weigh nearly the same.
     void split(const Range& range) {
         const auto weight = [&](std::size_t i) { return weights_[i] - weights_[range.first]; };
         const auto total = weight(range.end);
-        std::size_t low = range.first + 1, high = range.end - 1;  // the first place that has half of it before it
+        std::size_t low = range.first + 1, high = range.end - 1;  // the first position with half of the weight before
+                                                                  // it
         while (low < high) {
             const std::size_t middle = (low + high) / 2;
             if (2 * weight(middle) < total)
@@ -112,7 +114,7 @@ private:
         ranges_.push_back({range.first, low, pair, RAKE_NONE});
     }
 
-    /// `goes_right`: the path does, so the left operand is the one that is raked in.
+    /// The rake of an operator. `goes_right`: the path goes to the right operand, so the left operand is raked in.
     static std::uint32_t rake_of(std::uint32_t op, bool goes_right) {
         if (op == OP_UNION) return RAKE_UNION;
         if (op == OP_INTERSECTION) return RAKE_COMMON;
@@ -131,7 +133,7 @@ private:
                 leaf.cluster << 2 | (kernel::raked(leaf.rake, 0) ^ kernel::raked(leaf.rake, 3));
     }
 
-    /// Pairs come behind their parents.
+    /// Computes the functions where no solid covers. Pairs come behind their parents.
     void find_outside() {
         auto& outside = result_.outside;
         outside.assign((2 * result_.links.size() + 15) / 16, 0);
@@ -154,7 +156,7 @@ private:
     std::vector<std::uint32_t> sizes_;  ///< leaves below each node of the region's tree
     std::vector<Subtree> subtrees_;
     std::vector<Item> items_;
-    std::vector<std::uint64_t> weights_;  ///< of the path's items before each
+    std::vector<std::uint64_t> weights_;  ///< of the path's items before each item
     std::vector<Range> ranges_;
     std::vector<Leaf> leaves_;
 };

@@ -1,4 +1,4 @@
-// Regions' trees -> the status trees of deep rays. kernels/boolean/status_tree.h tells what they are.
+// Status trees of deep rays, made of the regions' trees. kernels/boolean/status_tree.h explains them.
 #pragma once
 
 #include <cstdint>
@@ -12,16 +12,17 @@ namespace csgrt {
 struct StatusTree {
     std::vector<std::uint32_t> links;         ///< one a pair of clusters, see layout.h
     std::vector<std::uint32_t> outside;       ///< clusters' functions where no solid covers, 16 a word
-    std::vector<std::uint32_t> first_leaves;  ///< one a solid and one behind: where its leaves begin
-    std::vector<std::uint32_t> leaves;        ///< cluster << 2 | what of its function changes where the solid covers
+    std::vector<std::uint32_t> first_leaves;  ///< one a solid, and one more: where its leaves begin
+    std::vector<std::uint32_t> leaves;        ///< cluster << 2 | the bits of its function that change where the solid
+                                              ///< covers
 };
 
-/// The trees of all regions: two clusters a leaf and region at most. From a leaf of a region of n leaves to the region
-/// it is no more than 2 log2(n) + 2 links. Takes a time that grows as n log(n), whatever the tree's depth.
-/// Throws Error (scene) if there are more clusters than 29 bits can number.
+/// Makes the trees of all regions: at most two clusters a leaf and region. From a leaf of a region of n leaves to the
+/// region there are at most 2 log2(n) + 2 links. The time grows as n log(n), whatever the tree's depth. Throws Error
+/// (scene) if there are more clusters than 29 bits can number.
 StatusTree make_status_tree(const CompiledScene& scene);
 
-/// A scene's, made when it is first asked for. Any thread.
+/// A scene's status tree, made at the first use. Any thread.
 class LateStatusTree {
 public:
     static const StatusTree& of(const CompiledScene& scene) {

@@ -1,5 +1,4 @@
-// Trees -> their terms: which solids start each, and what becomes of it when others cover a partition, too. layout.h
-// says what a term is.
+// Terms of trees: which solids start each, and its value when others cover a partition, too. layout.h explains terms.
 
 #include "compile/regions/terms.hpp"
 
@@ -19,7 +18,7 @@ struct Term {
     std::uint32_t region, first, end;
 };
 
-/// The members of the unions at a tree's top, in order.
+/// Adds the members of the unions at a tree's top, in order.
 void add_terms(const std::vector<std::uint32_t>& trees, const RegionWords& record, std::uint32_t region,
                std::vector<Term>& terms) {
     const Term whole{region, record.first_word, record.first_word + record.word_count};
@@ -39,7 +38,7 @@ void add_terms(const std::vector<std::uint32_t>& trees, const RegionWords& recor
     }
 }
 
-/// Solids and what they are to a term, see layout.h. A solid is undecided wherever it is not one thing alone.
+/// The roles of solids in a term, see layout.h. A solid without a single role is undecided.
 class Roles {
 public:
     Roles(const std::vector<std::uint32_t>& trees, std::uint32_t first, std::uint32_t end) : trees_(trees) {
@@ -73,7 +72,7 @@ public:
         std::size_t kept = 0;
         for (const auto& [solid, role] : entries_) {
             if (kept > 0 && entries_[kept - 1].first == solid) {
-                // Needed, removed or undecided, and not always the same. Sorted: what is needed comes after what is
+                // The solid has several roles: needed, removed or undecided. The list is sorted: needed comes after
                 // removed.
                 if (entries_[kept - 1].second == role) continue;
                 needs_undecided_ = needs_undecided_ || role == ROLE_NEEDED || entries_[kept - 1].second == ROLE_NEEDED;
@@ -85,7 +84,7 @@ public:
         entries_.resize(kept);
     }
 
-    /// A table twice as large as its entries at least, so that what is not in it is soon found not to be.
+    /// Writes a table of at least twice as many entries as needed, so that a missing solid is soon found to be missing.
     void write(std::vector<std::uint32_t>& words) const {
         std::uint32_t bits = 1, needed = 0;
         while ((1u << bits) < 2 * entries_.size()) ++bits;
@@ -113,21 +112,21 @@ private:
     bool needs_undecided_ = false;
 };
 
-/// What becomes of a term where a solid alone covers a partition. Unknown: it stands in the term more than once.
+/// The value of a term where a solid alone covers a partition. Unknown: the solid stands in the term more than once.
 enum class Alone : std::uint8_t { no, holds, unknown };
 
 /// Some terms, as one thread lists them.
 struct TermChunk {
     std::vector<kernel::StartRecord> records;
-    std::vector<std::uint32_t> starts;  ///< the solids that start each of them, each once
-    std::vector<Alone> alone;           ///< what the term is where that solid alone covers
-    std::vector<std::uint32_t> ends;    ///< one a term, among these
+    std::vector<std::uint32_t> starts;  ///< the solids that start each term, each once
+    std::vector<Alone> alone;           ///< the term's value where that solid alone covers
+    std::vector<std::uint32_t> ends;    ///< one a term, index into the lists
     std::vector<std::pair<std::uint32_t, bool>>
-        leaves;                 ///< of one term: solid, and whether the term is true where it alone covers
-    std::vector<bool> is_true;  ///< so far, of each of its words
+        leaves;                 ///< of one term: solid, and whether the term is true where the solid alone covers
+    std::vector<bool> is_true;  ///< one for each of its words so far
 };
 
-/// Whether the term holds where each of its starts, from `first` on, alone covers: then one of an operator's two
+/// Finds whether the term holds where each of its starts, from `first` on, alone covers: then one of an operator's two
 /// operands is empty. The linearizer leaves no complements.
 void add_alone(const std::vector<std::uint32_t>& trees, const Term& term, std::size_t first, TermChunk& chunk) {
     auto& leaves = chunk.leaves;
@@ -155,11 +154,11 @@ void add_alone(const std::vector<std::uint32_t>& trees, const Term& term, std::s
     }
 }
 
-/// `halves`: whether each solid is a half-space, which nearly every ray meets. Of an intersection what has fewer of
-/// those starts the term, and of two such operands the one with fewer leaves.
+/// Lists the starts of a term. `halves`: whether each solid is a half-space, which nearly every ray meets. An
+/// intersection is started by the operand with fewer half-spaces, or, if equal, with fewer leaves.
 void add_starts(const std::vector<std::uint32_t>& trees, const Term& term, const std::vector<bool>& halves,
                 TermChunk& chunk) {
-    // Lists of leaves are linked: nodes, by their place in the term.
+    // Lists of leaves are linked: nodes, by their position in the term.
     struct Part {
         std::uint32_t first, last;
         std::uint32_t halves, leaves;
@@ -173,7 +172,8 @@ void add_starts(const std::vector<std::uint32_t>& trees, const Term& term, const
         chunk.starts.push_back(solid_at(term.first));
         chunk.alone.push_back(Alone::holds);
     } else {
-        // From the back, so that operands come before their operators: the way back is a stack, left operand on top.
+        // The loop runs from the back, so that operands come before their operators. The stack has the left operand on
+        // top.
         std::vector<Part> stack;
         stack.reserve(TREE_STACK);
         std::vector<std::uint32_t> next(term.end - term.first, NONE);
@@ -215,7 +215,8 @@ void add_starts(const std::vector<std::uint32_t>& trees, const Term& term, const
     chunk.ends.push_back(static_cast<std::uint32_t>(chunk.starts.size()));
 }
 
-/// Takes up what a term of that region is where the solid alone covers. Regions come in ascending order.
+/// Adds to the solid's claim the value of a term of the region where the solid alone covers. Regions come in ascending
+/// order.
 void claim_alone(const Logic& logic, kernel::SolidRecord& solid, Alone alone, std::uint32_t region) {
     const std::uint32_t least = solid.alone & ~OVERLAP;
     if (alone == Alone::no || solid.alone == ALONE_UNKNOWN) return;
@@ -228,7 +229,7 @@ void claim_alone(const Logic& logic, kernel::SolidRecord& solid, Alone alone, st
     }
 }
 
-/// Gives each solid as much of a table as it counts, and counts anew. Returns how large the table is.
+/// Gives each solid as much of a table as it counts, and sets the counts to 0. Returns the size of the table.
 std::uint32_t lay_out(std::vector<kernel::SolidRecord>& solids, std::uint32_t kernel::SolidRecord::*first,
                       std::uint32_t kernel::SolidRecord::*count) {
     std::uint32_t total = 0;
@@ -239,7 +240,7 @@ std::uint32_t lay_out(std::vector<kernel::SolidRecord>& solids, std::uint32_t ke
     return total;
 }
 
-/// Where the solids of large terms stand in them.
+/// Lists the positions of solids in large terms.
 void list_leaves(const std::vector<Term>& terms, Logic& logic, std::vector<kernel::SolidRecord>& solids) {
     const auto for_each = [&](const auto& call) {
         for (const Term& term : terms) {
@@ -262,7 +263,7 @@ void list_leaves(const std::vector<Term>& terms, Logic& logic, std::vector<kerne
 
 std::uint32_t write_roles(std::vector<std::uint32_t>& trees, std::uint32_t first, std::uint32_t end) {
     const Roles roles(trees, first, end);
-    if (trees.size() >= NONE) return NONE;  // it does without
+    if (trees.size() >= NONE) return NONE;  // a term works without a table
     const auto place = static_cast<std::uint32_t>(trees.size());
     roles.write(trees);
     return place;
@@ -272,7 +273,7 @@ void mark_begins(const std::vector<std::uint32_t>& trees, std::uint32_t first, s
                  std::vector<kernel::SolidRecord>& solids) {
     struct Branch {
         std::uint32_t first, end;
-        std::uint32_t same, opposite;  // BEGINS_x of solids that the term needs there, and of those that it is without
+        std::uint32_t same, opposite;  // BEGINS_x of solids that the term needs, and of solids that it removes
     };
     std::vector<Branch> rest;
     rest.reserve(TREE_STACK);

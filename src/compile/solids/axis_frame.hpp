@@ -1,4 +1,4 @@
-// The right-angled frame of a sketch that is turned about an axis.
+// Axis frame: the right-angled frame of a sketch that is turned about an axis.
 #pragma once
 
 #include <cmath>
@@ -11,7 +11,7 @@
 
 namespace csgrt {
 
-/// Unit vectors: z along the axis, x where the turn begins, y a quarter on.
+/// Unit vectors: z along the axis, x where the turn begins, y a quarter turn on.
 struct AxisFrame {
     Wide x, y, z;
 };
@@ -22,9 +22,9 @@ inline AxisFrame axis_frame(const Revolve& s) {
     return {x, glm::cross(z, x), z};
 }
 
-/// How far it is turned. The half planes where the turn begins and ends are one if the angle between them is no more
-/// than the limit of planes that are: then a turn is whole, without a seam, or there is nothing of it; and the two of
-/// half a turn are one plane.
+/// The size of a turn. The half planes where the turn begins and ends are one plane if the angle between them is within
+/// the limit for equal planes. Then the turn is whole, without a seam, or nothing. The two planes of half a turn are
+/// one plane.
 enum class Turn { none, less, half, more, whole };
 
 inline Turn turn_of(const Revolve& s) {

@@ -1,4 +1,4 @@
-// The axes of solids of a closed form, as packing and boxing both need them.
+// Frames: the axes of solids of a closed form, for packing and for boxes.
 #pragma once
 
 #include <cmath>
@@ -23,7 +23,7 @@ inline WideMatrix axes_of(const Epa& s) {
     const Wide h = wide(s.h), a = glm::normalize(wide(s.a));
     return {static_cast<long double>(s.r_1) * a, static_cast<long double>(s.r_2) * glm::normalize(glm::cross(h, a)), h};
 }
-/// Half the length, half the width, and the way from the base to the vertex.
+/// Half the length, half the width, and the vector from the base to the vertex.
 template <class Cylinder>
 WideMatrix axes_of(const Cylinder& s) requires std::is_same_v<Cylinder, Rpc> || std::is_same_v<Cylinder, Rhc> {
     const Wide h = wide(s.h), b = wide(s.b);
@@ -65,12 +65,13 @@ inline long double field(const Metaball& s, const Metaball::Point& p, long doubl
         }
     }
 }
-/// The natural logarithm of a field that is nothing beside the threshold, in 113 bits too, even if every point had it.
+/// The natural logarithm of a field that is negligible beside the threshold, in 113 bits too, even if every point had
+/// it.
 inline long double faint(const Metaball& s) {
     constexpr long double below = 83;  // 2^-120
     return std::log(static_cast<long double>(s.threshold) / s.points.size()) - below;
 }
-/// How far from a point its field reaches: a blob's is cut off where it is faint.
+/// The distance from a point at which its field ends: a blob's is cut off where it is negligible.
 inline long double reach_of(const Metaball& s, const Metaball::Point& p) {
     switch (s.method) {
         case Metaball::Method::isopotential:
@@ -91,8 +92,8 @@ inline MetaballFrame frame_of(const Metaball& s) {
     MetaballFrame frame{Wide(0), 0};
     for (const Metaball::Point& p : s.points) frame.center += wide(p.position) / count;
     for (const Metaball::Point& p : s.points) {
-        // On the surface one point at least makes its share of the threshold; no
-        // farther from it than this.
+        // At least one point contributes its share of the threshold at each point of the surface. The surface is no
+        // farther from that point than this distance.
         long double r = p.strength;
         if (s.method == Metaball::Method::isopotential) r /= std::sqrt(share);
         if (s.method == Metaball::Method::blob) r *= std::sqrt(std::fmax(0.0L, 1 - std::log(share) / p.softness));

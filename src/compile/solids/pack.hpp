@@ -1,4 +1,4 @@
-// Solids -> SolidRecord, reals and plane references, as geometry/<solid>.h reads them.
+// Packing solids: makes SolidRecord, reals and plane references, as geometry/<solid>.h reads them.
 #pragma once
 
 #include <string>
@@ -15,21 +15,21 @@
 
 namespace csgrt {
 
-/// Where in Shapes::words the parts of a solid of many parts begin, by the address of its Shape (or of what it
-/// holds): its other places use the same.
+/// The positions in Shapes::words of the elements of solids without a fixed size, by the address of the Shape (or of a
+/// member of it). All instances of the solid share them.
 using SharedParts = std::unordered_map<const void*, std::uint32_t>;
 
-/// Each instance of `order` becomes a solid, whose record begins as `terms` gives it; `common` stands for the box of
-/// those that are not bounded; `clipped` says which half-spaces end, and where. The arithmetic is done by several
-/// threads. Throws Error (scene) for a type that csgrt does not know, or when the tables exceed 32 bits.
+/// Packs each instance of `order` as a solid, whose record begins as `terms` gives it. `common` stands for the box of
+/// the unbounded; `clipped` says which half-spaces are bounded, and by which box. Several threads do the arithmetic.
+/// Throws Error (scene) for a type that csgrt does not know, or when the tables exceed 32 bits.
 Shapes pack_solids(const Scene& scene, const FlatScene& flat, const Measured& measured, const Clipped& clipped,
                    const std::vector<std::uint32_t>& order, const Space& space, const Box& common,
                    const std::vector<kernel::SolidRecord>& terms, std::vector<Warning>& warnings);
 
-/// What is worth telling of a revolve's turn; usually nothing.
+/// A note on a revolve's turn; usually empty.
 std::string note_on(const Revolve& s);
 
-/// Throws Error (scene) if so many numbers cannot be told apart by 32 bits.
+/// Throws Error (scene) if 32 bits cannot count so many numbers.
 void check_numbers(std::size_t count);
 
 }  // namespace csgrt

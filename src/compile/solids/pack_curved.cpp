@@ -1,4 +1,4 @@
-// Solids of a closed form.
+// Packing solids of a closed form.
 #include <algorithm>
 #include <cmath>
 
@@ -42,8 +42,7 @@ void Packer::operator()(const Rpc& s) {
     face(v + h, axes[1], axes[2], v);
 }
 
-// Local z is the depth below the vertex line, so that a hyperbola that is
-// nearly a parabola keeps its digits.
+// Local z is the depth below the vertex line, so that a hyperbola that is nearly a parabola keeps its digits.
 void Packer::operator()(const Rhc& s) {
     record.type = SOLID_QUADRIC;
     const Wide v = wide(s.v), h = wide(s.h), b = wide(s.b);
@@ -73,8 +72,8 @@ void Packer::operator()(const Eto& s) {
     record.type = SOLID_ETO;
     const EtoFrame f = frame_of(s);
     frame(wide(s.v), f.axes);
-    // (u . p)^2 / C^2 + (w . p)^2 / D^2 of p = (rho - 1, z), u and w the
-    // directions of the semi-axes
+    // The quadratic form (u . p)^2 / C^2 + (w . p)^2 / D^2 of p = (rho - 1, z); u and w are the directions of the
+    // semi-axes.
     const long double u = 1 / (f.long_axis * f.long_axis), w = 1 / (f.short_axis * f.short_axis);
     const long double out = f.radial, up = f.axial;
     real(out * out * u + up * up * w);
@@ -83,14 +82,14 @@ void Packer::operator()(const Eto& s) {
     real(std::hypot(up * f.long_axis, out * f.short_axis));
     const long double reach = std::hypot(out * f.long_axis, up * f.short_axis);
     real(1 + reach);
-    // An ellipse that touches the axis may pass it by rounding.
+    // An ellipse that touches the axis may cross it by rounding.
     if (reach > 1 + 1e-15L)
         crossed(out * out * u + up * up * w, out * up * (u - w), up * up * u + out * out * w, u * w, reach);
 }
 
-/// The pivots of an eto whose ellipse reaches across the axis (crossed_eto.h). With F = 0 at rho = 0,
-/// z = (beta +- s) / gamma, s^2 = beta^2 - gamma (alpha - 1) = determinant (reach^2 - 1); and F(rho) = F(-rho) = 0 off
-/// the axis where z = alpha / beta and alpha rho^2 = 1 - alpha determinant / beta^2.
+/// The pivots of an eto whose ellipse crosses the axis (crossed_eto.h). With F = 0 at rho = 0, z = (beta +- s) / gamma,
+/// s^2 = beta^2 - gamma (alpha - 1) = determinant (reach^2 - 1); and F(rho) = F(-rho) = 0 off the axis where z = alpha
+/// / beta and alpha rho^2 = 1 - alpha determinant / beta^2.
 void Packer::crossed(long double alpha, long double beta, long double gamma, long double determinant,
                      long double reach) {
     record.type = SOLID_CROSSED_ETO;
@@ -119,8 +118,7 @@ void Packer::operator()(const Part& s) {
     frame(wide(s.v) + middle * axis, {x * unit, glm::cross(axis, x) * unit, axis * unit});
     const long double z0 = -middle / unit, z1 = (length - middle) / unit, r0 = first / unit, r1 = second / unit;
     for (const long double q : {z0, r0, z1, r1}) real(q);
-    // The cone leans by the angle of sine (r0 - r1) / |h|: it touches the balls
-    // that far along their radii.
+    // The cone leans by the angle of sine (r0 - r1) / |h|: it touches the balls so far along their radii.
     const bool has_cone = std::fabs(first - second) < length;
     const long double sine = has_cone ? (first - second) / length : 0, cosine = std::sqrt((1 - sine) * (1 + sine));
     const long double slope = -sine / cosine;
@@ -148,7 +146,7 @@ void Packer::operator()(const Metaball& s) {
     record.type = SOLID_METABALL;
     const MetaballFrame f = frame_of(s);
     const auto local = [&](const Metaball::Point& p) { return (wide(p.position) - f.center) / f.reach; };
-    // The box of what a point's field reaches, as far as it is searched.
+    // The box of the ball in which a point's field is searched.
     const auto box_of = [&](std::size_t i) {
         constexpr long double searched = 1.001L;
         const long double reach = reach_of(s, s.points[i]) / f.reach;

@@ -1,4 +1,4 @@
-// Solids that triangles make: the triangles and their hierarchy once, in their own space; then each place.
+// Packing solids that triangles make: the triangles and their hierarchy once, in their own space; then each instance.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -14,8 +14,8 @@ namespace csgrt {
 
 namespace {
 
-/// Where the kernels see a mesh: its vertices less `center`, over `scale`, a power of two, so that they lie within
-/// MESH_RADIUS.
+/// The frame of a mesh in the kernels: its vertices less `center`, over `scale`, a power of two, so that they lie
+/// within MESH_RADIUS.
 struct MeshFrame {
     Vec3 center;
     double scale = 1;
@@ -39,21 +39,22 @@ MeshFrame frame_of(const Triangles& mesh) {
             square = std::max(square, glm::dot(from, from));
         }
     const long double radius = std::sqrt(square);
-    constexpr long double margin = 1.001L;  // rounding, in single precision too, takes no vertex past the radius
+    constexpr long double margin = 1.001L;  // so that rounding, in single precision too, takes no vertex past the
+                                            // radius
     int exponent = 0;
     std::frexp(radius * margin, &exponent);
     frame.scale = std::ldexp(1.0, exponent);
     return frame;
 }
 
-/// At least doubles what has to grow: a scene may have very many meshes.
+/// Makes room in a vector, which at least doubles if it grows: a scene may have very many meshes.
 template <class T>
 void make_room(std::vector<T>& to, std::size_t more) {
     if (to.capacity() - to.size() < more) to.reserve(std::max(2 * to.capacity(), to.size() + more));
 }
 
-/// Before the vertices stand center and scale, which only the host reads. Returns the faces in the order of the
-/// hierarchy's leaves.
+/// Adds a mesh. Before its vertices stand center and scale, which only the host reads. Returns the faces in the order
+/// of the hierarchy's leaves.
 std::vector<std::uint32_t> add_mesh(const Triangles& mesh, const MeshFrame& frame, Shapes& scene,
                                     std::uint32_t facing = 0) {
     if (mesh.faces.size() > most_triangles)
@@ -94,8 +95,8 @@ std::vector<std::uint32_t> add_mesh(const Triangles& mesh, const MeshFrame& fram
     return std::move(hierarchy.order);
 }
 
-/// For each edge of each face, from corner k to the next: the third corner of the other face there; NONE unless there
-/// is exactly one.
+/// The opposite corners: for each edge of each face, from corner k to the next, the third corner of the other face
+/// there; NONE unless there is exactly one.
 std::vector<std::array<std::uint32_t, 3>> across_edges(const Triangles& mesh) {
     struct Use {
         std::uint32_t low, high, face, edge;
@@ -120,11 +121,11 @@ std::vector<std::array<std::uint32_t, 3>> across_edges(const Triangles& mesh) {
     return across;
 }
 
-/// How thick a surface without thickness is seen, millimetres: a weaver that takes ends within the tolerance for one
-/// still keeps it.
+/// The thickness with which a surface without thickness is seen, millimetres: the weave still keeps it though
+/// boundaries within the tolerance are one.
 double skin_of(double tolerance) { return tolerance > 0 ? 2 * tolerance : 0.001; }
 
-/// Where the words of a solid are; `add` makes them if it has none yet.
+/// The position of a solid's words; `add` makes them if the solid has none yet.
 template <class Add>
 std::uint32_t shared_words(Packer& packer, const void* solid, const Add& add) {
     const auto next = static_cast<std::uint32_t>(packer.scene.words.size());
@@ -133,7 +134,7 @@ std::uint32_t shared_words(Packer& packer, const void* solid, const Add& add) {
     return known->second;
 }
 
-/// Puts a mesh whose words begin at `mesh` in its place; `own` places it in the solid.
+/// Transforms a mesh whose words begin at `mesh`; `own` transforms it to the solid's space.
 void place_mesh(Packer& packer, std::uint32_t mesh, const Matrix& own) {
     Shapes& scene = packer.scene;
     packer.record.first_real = static_cast<std::uint32_t>(scene.reals.size());
@@ -152,8 +153,7 @@ void pack_mesh(Packer& packer, const S& solid, const Matrix& own) {
     place_mesh(packer, packer.record.first_word, own);
 }
 
-/// Only where the surface has gaps does it matter which way the triangles face: what is closed is known by parity, for
-/// certain.
+/// The direction of the triangles matters only if the surface has gaps: parity decides a closed surface, for certain.
 void pack_volume(Packer& packer, const Bot& bot) {
     packer.record.type = SOLID_MESH;
     packer.record.first_word = shared_words(packer, &bot, [&] {

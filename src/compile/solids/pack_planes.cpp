@@ -1,4 +1,4 @@
-// The planes of all solids, those that are one found by several threads: see shards.hpp.
+// Packing the planes of all solids; several threads find the equal ones: see shards.hpp.
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -34,7 +34,7 @@ void insert_large(PackedChunk& chunk) {
     chunk.planes = std::move(all);
 }
 
-/// Leaves out faces of a polyhedron that have come already. Returns how many references are left.
+/// Removes repeated faces of a polyhedron. Returns how many references are left.
 std::size_t drop_repeated(std::uint32_t* refs, std::size_t count) {
     constexpr std::size_t few = 16;  // an arbn may have very many faces
     std::unordered_set<std::uint32_t> seen;
@@ -47,13 +47,13 @@ std::size_t drop_repeated(std::uint32_t* refs, std::size_t count) {
     return kept;
 }
 
-/// A solid two of whose faces look away from each other in what is one plane: nothing is left of it.
+/// A solid without thickness: two of its faces look away from each other in one plane, so nothing is left of it.
 struct Film {
     std::size_t solid;
     double thickness;
 };
 
-/// How far apart two such faces are as given; none: there are none.
+/// The distance of two such faces as given; none: there are no such faces.
 std::optional<double> thickness_of_film(std::span<const PackedPlane> faces) {
     const auto apart = [&](std::size_t i, std::size_t j) {
         const PlaneTable::Key &a = faces[i].key, &b = faces[j].key;
@@ -74,7 +74,7 @@ std::optional<double> thickness_of_film(std::span<const PackedPlane> faces) {
     return {};
 }
 
-/// Says of the first few what has become of them, and how many more there are.
+/// Warns of the first few such solids, and says how many more there are.
 void note_films(const std::vector<std::vector<Film>>& films, const Box& common, const Shapes& shapes,
                 std::vector<Warning>& warnings) {
     const auto warn = [&](std::string object, std::string reason) {
@@ -103,7 +103,7 @@ void note_films(const std::vector<std::vector<Film>>& films, const Box& common, 
     if (count > shown) warn({}, "nothing is left of " + std::to_string(count - shown) + " more such solids");
 }
 
-/// Puts each plane into its shard.
+/// Sorts the planes into shards.
 Shards shards_of(std::vector<PackedChunk>& chunks, const PlaneTable& empty, const Box& common, const Shapes& shapes) {
     Shards shards(chunks.size());
     std::size_t planes = 0;
@@ -124,10 +124,10 @@ Shards shards_of(std::vector<PackedChunk>& chunks, const PlaneTable& empty, cons
     return shards;
 }
 
-/// The planes of each shard that are the first of their table's records.
+/// For each shard, the planes that are the first of their records.
 using Firsts = std::vector<std::vector<Shards::Member>>;
 
-/// Finds the planes that are one. Their `ref` is that of the shard's own table.
+/// Finds the equal planes. Their `ref` is that of the shard's own table.
 Firsts find_shared(std::vector<PackedChunk>& chunks, const Shards& shards, const PlaneTable& empty, const Box& common,
                    const Shapes& shapes) {
     Firsts firsts(Shards::count);
@@ -140,7 +140,7 @@ Firsts find_shared(std::vector<PackedChunk>& chunks, const Shards& shards, const
         };
         table.reserve(members.size());
         for (std::size_t i = 0; i < members.size(); ++i) {
-            // They lie far apart: most of the time would go by in waiting for memory.
+            // The entries lie far apart: without prefetching most of the time would be waiting for memory.
             constexpr std::size_t soon = 6, later = 12;
             if (i + later < members.size()) prefetch_line(&plane_at(i + later));
             if (i + soon < members.size()) {
@@ -160,7 +160,7 @@ Firsts find_shared(std::vector<PackedChunk>& chunks, const Shards& shards, const
 /// Writes the scene's records, in the order of the solids, and makes each `ref` the scene's.
 void number_planes(std::vector<PackedChunk>& chunks, const Shards& shards, const Firsts& firsts, const Box& common,
                    Shapes& shapes, Shells& shells) {
-    // How far beyond the plane a point lies; outward of the solid whose face the plane is.
+    // The distance of a point beyond the plane, outward from the solid whose face the plane is.
     const auto beyond = [](const PlaneTable::Key& key, const Wide& point) {
         const long double out = glm::dot(wide(key.one.normal), point) - key.one.distance;
         return key.flipped ? -out : out;
@@ -199,7 +199,7 @@ void number_planes(std::vector<PackedChunk>& chunks, const Shards& shards, const
     });
 }
 
-/// Writes each solid's references behind what solids wrote.
+/// Writes each solid's references behind the words of the solids.
 void write_references(const std::vector<PackedChunk>& chunks, const Box& common, Shapes& shapes,
                       std::vector<Warning>& warnings) {
     std::vector<std::vector<kernel::PlaneRef>> of(chunks.size());
@@ -214,8 +214,8 @@ void write_references(const std::vector<PackedChunk>& chunks, const Box& common,
         for (std::size_t i = 0; i < chunks[number].parts.size(); ++i) {
             const PackedChunk::Part& part = chunks[number].parts[i];
             const std::size_t first = own.size();
-            // Only of a polyhedron has a wall's plane an inner side: of an outline that is not convex two walls that
-            // look away from each other may lie in one plane. Its ends have one.
+            // A wall's plane has an inner side only in a polyhedron: two walls of a concave outline that look away from
+            // each other may lie in one plane. The caps always have an inner side.
             const bool is_extrude = shapes.solids[number * PackedChunk::size + i].type == SOLID_EXTRUDE;
             if (const auto thickness = thickness_of_film({plane, plane + (is_extrude ? 2 : part.faces)}))
                 films[number].push_back({number * PackedChunk::size + i, *thickness});

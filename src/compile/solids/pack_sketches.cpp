@@ -1,4 +1,4 @@
-// Solids that outlines make.
+// Packing solids that sketches make.
 #include <algorithm>
 #include <cmath>
 
@@ -13,14 +13,14 @@ namespace csgrt {
 
 namespace {
 
-/// A model's vectors after the solid's own matrix.
+/// A prism's vectors in the model, after the solid's own matrix.
 struct Prism {
     Wide v, a, b, h;
 };
 
-/// Is it one loop of lines, in any order, that bounds a convex piece of the plane?
+/// Is the sketch one loop of lines, in any order, that bounds a convex part of the plane?
 bool is_convex(const SketchParts& parts) {
-    constexpr std::size_t most = 16;  // an outline of more is quicker with its hierarchy
+    constexpr std::size_t most = 16;  // an outline of more lines is quicker with its hierarchy
     const std::vector<StraightLine>& lines = parts.lines;
     if (!parts.curves.empty() || lines.size() < 3 || lines.size() > most) return false;
     long double turn = 0;
@@ -62,7 +62,7 @@ void extrude(Packer& packer, const Prism& prism, SketchParts parts, const void* 
     if (glm::dot(end, along) < 0) end = -end;
     packer.face(plane_through(transform_point(matrix, v), -end));
     packer.face(plane_through(transform_point(matrix, v + h), end));
-    // Only of a convex outline a wall's plane has an inner side.
+    // A wall's plane has an inner side only if the outline is convex.
     Wide middle(0);
     for (const StraightLine& line : parts.lines)
         middle += (line.u0 * across_a + line.v0 * across_b) / static_cast<long double>(parts.lines.size());
@@ -113,7 +113,7 @@ void Packer::operator()(const Revolve& s) {
 
     const WideMatrix normals = glm::transpose(glm::inverse(linear_part(matrix)));
     if (turn != Turn::whole) {
-        // Outward from what lies between the two: of the solid, or of what is missing.
+        // The normal points away from the space between the two: the solid, or the missing part.
         const Wide first = less ? -axes.y : axes.y;
         Wide second =
             std::cos(static_cast<long double>(s.angle)) * axes.y - std::sin(static_cast<long double>(s.angle)) * axes.x;

@@ -1,4 +1,4 @@
-// What all pack_*.cpp share: how one solid is written as geometry/<solid>.h reads it.
+// Packer: how one solid is written as geometry/<solid>.h reads it. All pack_*.cpp share it.
 #pragma once
 
 #include <span>
@@ -17,25 +17,26 @@
 namespace csgrt {
 
 /// Writes one solid. pack.cpp has the solids of planes and quadrics, pack_curved.cpp other closed forms,
-/// pack_sketches.cpp what outlines make, pack_meshes.cpp what triangles make.
+/// pack_sketches.cpp the solids of sketches, pack_meshes.cpp those of triangles.
 struct Packer {
     const Matrix& matrix;
-    Shapes& scene;  ///< solids of any size write there; others do not touch it: see is_small
+    Shapes& scene;  ///< solids without a fixed size write there; others do not touch it: see is_small
     SharedParts& shared;
-    std::vector<double>& reals;  ///< where this solid's begin at first_real: the scene's, for solids of any size
-    std::vector<Plane>& planes;  ///< the faces, to be found in the table of planes
+    std::vector<double>& reals;  ///< this solid's begin at first_real; the vector is the scene's for solids without a
+                                 ///< fixed size
+    std::vector<Plane>& planes;  ///< the faces, for the search in the table of planes
     kernel::SolidRecord record{};
     WideMatrix axes_in_world{};        ///< of the last frame
     bool is_polyhedron = false;        ///< faces in one plane are one
-    std::vector<std::string> notes{};  ///< what is worth telling of the solid
+    std::vector<std::string> notes{};  ///< notes on the solid
 
     void real(long double value) { reals.push_back(static_cast<double>(value)); }
-    /// center and L, the inverse of the matrix whose columns are the local axes in the world.
+    /// Sets center and L, the inverse of the matrix whose columns are the local axes in the world.
     void frame(const Wide& center, const WideMatrix& axes);
     void face(const Plane& plane) { planes.push_back(plane); }
-    /// The face through `point` that a and b span, looking away from `inside` (all before the matrix).
+    /// Adds the face through `point` that a and b span, looking away from `inside` (all before the matrix).
     void face(const Wide& point, const Wide& a, const Wide& b, const Wide& inside);
-    /// Faces of a polyhedron; several in one plane are one.
+    /// Adds faces of a polyhedron; several in one plane count once.
     void faces(std::span<const Plane> all);
 
     void operator()(const Ell& s);

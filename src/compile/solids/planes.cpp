@@ -13,16 +13,16 @@ namespace {
 
 constexpr std::uint32_t none = CellTable::none;
 
-// Cells have their centres at 0 and +-1, where most normals of models lie.
+// The cell's size for normals. Cells have their centres at 0 and +-1, where most normals of models lie.
 constexpr double normal_cell = 1e-7;
 
 Plane flipped(const Plane& p) { return {{0.0 - p.normal.x, 0.0 - p.normal.y, 0.0 - p.normal.z}, 0.0 - p.distance}; }
 
-/// Positive or negative: on which side of space a normal lies, so that a plane and the one that looks the other way are
-/// looked up once.
+/// The side of space on which a normal lies, positive or negative. So a plane and the plane that looks the other way
+/// are looked up once.
 double facing(const Vec3& n) { return n.x + 0.61 * n.y + 0.37 * n.z; }
 
-/// Rounding decides on which side.
+/// Does rounding decide the side?
 bool faces_both(const Plane& plane) { return std::fabs(facing(plane.normal)) <= 4 * PlaneTable::tilt; }
 
 constexpr double axis_tilt = 1e-15;
@@ -36,7 +36,7 @@ std::uint8_t axis_of(const Vec3& n) {
     return 0;
 }
 
-/// Where a plane of normal n lies farthest apart from another over a box, given the difference of the two.
+/// The largest distance of two planes over a box. `normal`, `distance`: the difference of the two planes.
 double separation(const Wide& normal, long double distance, const Box& box) {
     long double low = -distance, high = -distance;
     for (int axis = 0; axis < 3; ++axis) {
@@ -54,9 +54,8 @@ double PlaneTable::offset(const Plane& plane) const {
     return static_cast<double>(plane.distance - glm::dot(wide(plane.normal), wide(center_)));
 }
 
-/// How far the offsets of two planes across one axis may differ that are the same over `box`: of those nothing but
-/// their distance is to be compared. With a margin for what the normals differ by, anywhere in the scene, and for
-/// rounding.
+/// The limit on the difference of the offsets of two equal planes across one axis over `box`: only their distance is
+/// compared. It has a margin for the difference of the normals, anywhere in the scene, and for rounding.
 double PlaneTable::parallel_reach(const Key& key, const Box& box) const {
     return 2 * gap * diagonal(box) + 2 * rounding_ + 10 * axis_tilt * radius_ + 1e-15 * std::fabs(key.offset);
 }
@@ -92,12 +91,12 @@ PlaneTable::Key PlaneTable::key_of(const Plane& plane) const {
 }
 
 void PlaneTable::add_to(Shards::Chunk& chunk, const Key& key, const Box& box, std::size_t planes) const {
-    // Small, since many normals are the same; yet so large that few planes lie near a border and most shards stay
-    // apart.
+    // The cells are small, since many normals are the same; yet so large that few planes lie near a border and most
+    // shards stay apart.
     const double part_of_radius =
         std::max(1.0 / 8192, 4 * offset_reach_ / radius_ * static_cast<double>(planes) / (Shards::count / 16));
-    // Of two planes it is enough that one looks into the cell of the other. So those across an axis, which crowd where
-    // solids stand on one plate, look no farther than to each other, and the rest to them.
+    // It is enough that one of two planes is looked up in the cell of the other. So planes across an axis, which crowd
+    // where solids stand on one plate, are looked up only as far as each other, and the other planes as far as they.
     const double reach = key.axis ? parallel_reach(key, box) : 2 * offset_reach_;
     const auto cells = [&](const Vec3& n, double offset) {
         constexpr double normal = 0.25;
@@ -122,7 +121,7 @@ std::uint32_t PlaneTable::find_in_cell(std::uint64_t cell, const Key& key, const
     return found;
 }
 
-/// The first record of that plane, which looks the same way.
+/// The first record of the plane that looks the same way.
 std::uint32_t PlaneTable::find(const Key& key, const Box& box) const {
     if (key.alone) return find_in_cell(key.cell, key, box);
     const Vec3& n = key.one.normal;
@@ -163,7 +162,7 @@ kernel::PlaneRef PlaneTable::add_keyed(const Key& key, const Box& box) {
     std::uint32_t found = find(key, box);
     bool opposite = false;
     if (faces_both(key.one)) {
-        // Another may have been taken for one on the other side.
+        // The equal plane may have been taken for one on the other side.
         Key other = key;
         other.one = flipped(key.one);
         other.offset = -key.offset;

@@ -1,5 +1,5 @@
-// The one table of planes in the world. Faces, end caps and half-spaces that lie in one plane share its record, so that
-// a ray meets them at the very same distance.
+// Plane table: the one table of planes in the world. Faces, end caps and half-spaces that lie in one plane share its
+// record, so that a ray meets them at the very same distance.
 #pragma once
 
 #include <cstdint>
@@ -16,14 +16,16 @@ namespace csgrt {
 
 class PlaneTable {
 public:
-    /// Two planes are one when over the boxes of both their solids they lie no farther apart than this, relative to the
-    /// smaller box's diagonal. Rounding of a model's own numbers and matrices stays below; a modelled gap is far above.
-    /// Far from the origin rounding moves planes by more, coordinate_rounding (linear.hpp): then that is the limit.
+    /// The limit of distance: two planes are one if over the boxes of both their solids they lie no farther apart than
+    /// this, relative to the smaller box's diagonal. Rounding of a model's own numbers and matrices is below it; a
+    /// modelled gap is far above. Far from the origin rounding moves planes by more: then coordinate_rounding
+    /// (linear.hpp) is the limit.
     static constexpr double gap = 1e-10;
-    /// ... and when their unit normals differ by no more than this in any component, which keeps the search local.
+    /// The limit of tilt: unit normals of equal planes differ by no more than this in any component, which keeps the
+    /// search local.
     static constexpr double tilt = 1e-9;
 
-    /// `around`: a sphere around the scene; distances are looked up relative to it.
+    /// Makes an empty table. `center`, `radius`: a sphere around the scene; distances are looked up relative to it.
     PlaneTable(const Vec3& center, double radius)
         : center_(center),
           radius_(radius),
@@ -31,41 +33,41 @@ public:
           offset_reach_(offset_reach * radius + rounding_),
           offset_cell_(offset_cell * radius + 4 * rounding_) {}
 
-    /// Where a plane is looked up; depends on nothing else, so several threads may find it ahead.
+    /// The key under which a plane is looked up. It depends on nothing else, so several threads may find keys ahead.
     struct Key {
         Plane one;          ///< the plane, or the one that looks the other way: see facing()
         double offset = 0;  ///< of `one` from the scene's centre
         std::uint64_t cell = 0;
         bool flipped = false;   ///< `one` looks the other way
-        bool alone = false;     ///< no plane that is the same lies in another cell
-        std::uint8_t axis = 0;  ///< 1, 2, 3: the normal of `one` is that axis, as far as rounding goes
+        bool alone = false;     ///< no equal plane lies in another cell
+        std::uint8_t axis = 0;  ///< 1, 2, 3: the normal of `one` is that axis, within rounding
     };
     Key key_of(const Plane& plane) const;
     static kernel::PlaneRecord record_of(const Key& key);
-    /// Tells a chunk where the plane of a solid in `box` is looked up: planes that may be the same share a shard.
-    /// `planes`: about how many there are in all.
+    /// Adds to a chunk the position at which the plane of a solid in `box` is looked up: planes that may be equal share
+    /// a shard. `planes`: about how many there are in all.
     void add_to(Shards::Chunk& chunk, const Key& key, const Box& box, std::size_t planes) const;
 
-    /// The record of a face of the solid in `box`: an earlier one if there is one for that plane, in either direction.
+    /// The record of a face of the solid in `box`: an earlier record if one has that plane, in either direction.
     kernel::PlaneRef add_keyed(const Key& key, const Box& box);
     kernel::PlaneRef add(const Plane& plane, const Box& box) { return add_keyed(key_of(plane), box); }
 
-    /// Throws Error (scene) if there are more records than references can tell apart.
+    /// Throws Error (scene) if there are more records than references can number.
     static void check_count(std::size_t records);
     std::size_t size() const { return entries_.size(); }
-    /// Room for so many: what grows is copied, and half of its memory cleared in vain.
+    /// Reserves room for so many planes: a vector that grows is copied, and half of its memory cleared in vain.
     void reserve(std::size_t planes) {
         entries_.reserve(planes);
         links_.reserve(planes);
     }
-    /// Without planes, in the memory that it has.
+    /// Removes the planes, and keeps the memory.
     void clear() {
         entries_.clear();
         links_.clear();
         cells_.clear();
     }
     std::vector<kernel::PlaneRecord> records() const;
-    /// Asks for the memory that a search for it begins with.
+    /// Prefetches the memory where the search for a plane begins.
     void prefetch(const Key& key) const { cells_.prefetch(key.cell); }
 
 private:
@@ -73,13 +75,13 @@ private:
     struct Entry {
         Vec3 normal;
         double distance;  ///< from the origin
-        bool flipped;     ///< against the record
-        Box box;          ///< of the solid that brought the plane
+        bool flipped;     ///< relative to the record
+        Box box;          ///< of the first solid with the plane
     };
-    /// What is looked at first, apart: parallel planes crowd in a cell.
+    /// The data that the search reads first, apart from the rest: parallel planes crowd in a cell.
     struct Link {
         double offset;       ///< from the scene's centre
-        std::uint32_t next;  ///< in the same cell
+        std::uint32_t next;  ///< next entry in the same cell
         std::uint8_t axis;   ///< as in Key
     };
 
@@ -90,8 +92,8 @@ private:
     double limit(const Box& a, const Box& b) const;
     double parallel_reach(const Key& key, const Box& box) const;
 
-    // Offsets are looked up by cells of this size, in parts of the scene's radius. Both boxes lie in the scene, where a
-    // tilt moves a plane by tilt x radius at most.
+    // The cell's size for offsets, in parts of the scene's radius. Both boxes lie in the scene, where a tilt moves a
+    // plane by tilt x radius at most.
     static constexpr double offset_cell = 1.5e-8, offset_reach = 3 * tilt + gap;
 
     Vec3 center_;
@@ -100,10 +102,10 @@ private:
     double offset_reach_, offset_cell_;
     std::vector<Entry> entries_;
     std::vector<Link> links_;  ///< one an entry
-    CellTable cells_;          ///< the last record of each
+    CellTable cells_;          ///< the last record of each cell
 };
 
-/// A plane of a view, by the numbers of the model's own plane where a half-space in the model would share its record:
+/// A plane of a view. If a half-space in the model would share a record with it, the plane has that record's numbers:
 /// then a ray meets both at the very same distance.
 kernel::PlaneRecord shared_plane(const CompiledScene& scene, const Plane& plane);
 

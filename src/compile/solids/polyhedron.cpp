@@ -9,16 +9,16 @@ namespace csgrt {
 
 namespace {
 
-// Corners closer than this are one, where an arb is not convex as its numbers say. BRL-CAD merges at 0.0005 mm,
-// whatever the size; a small arb needs a finer measure.
+// Limits below which corners are one, where an arb is not convex as its numbers say. BRL-CAD merges at 0.0005 mm,
+// whatever the size; a small arb needs a finer limit.
 constexpr long double same_corner = 0.0005L;         // millimetres
 constexpr long double same_corner_relative = 1e-6L;  // of the arb's diagonal, if that is less
-// What rounding leaves between corners that are one.
+// The distance that rounding leaves between equal corners.
 constexpr long double equal_corner_relative = 1e-15L;
-// A third corner closer to the line through the first two than this, relative to their distance, says nothing of the
-// plane; `equal_corner_relative` where thin arbs are taken at their word.
+// A third corner closer to the line through the first two than this, relative to their distance, does not fix the
+// plane; the limit is `equal_corner_relative` where thin arbs are taken as their numbers say.
 constexpr long double in_line_relative = 1e-6L;
-// Corners may leave their plane by this, relative to the arb's diagonal, without being seen as a twisted face.
+// The distance by which a corner may leave its plane, relative to the arb's diagonal, without making a twisted face.
 constexpr long double flat = 1e-12L;
 
 Vec3 without_negative_zero(const Vec3& v) { return {v.x + 0.0, v.y + 0.0, v.z + 0.0}; }
@@ -46,8 +46,8 @@ std::vector<Plane> arbn_faces(const Arbn& arbn, const Matrix& matrix) {
 
 namespace {
 
-// The half-spaces of a concave arb's faces can meet far away from it. What lies outside the box of its own corners is
-// no part of it.
+// Clips to the box of the corners. The half-spaces of a concave arb's faces can meet far away from it, but nothing
+// outside the corners' box is a part of it.
 void clip_to_corners(const Arb& arb, const Matrix& matrix, std::vector<Plane>& planes) {
     Box box = empty_box;
     for (const Vec3& corner : arb.vertices) extend(box, corner);
@@ -57,22 +57,21 @@ void clip_to_corners(const Arb& arb, const Matrix& matrix, std::vector<Plane>& p
         planes.push_back(transform_plane(matrix, side));
 }
 
-/// sqrt(a) > sqrt(b), rounded as they are, but hardly ever by taking the roots: where the squares are not equal and yet
-/// as good as equal.
+/// sqrt(a) > sqrt(b), with both roots rounded. The roots are taken only where the squares differ, but by very little.
 bool longer(long double a, long double b) {
     if (a <= b) return false;
     return a > b * (1 + 1e-17L) || std::sqrt(a) > std::sqrt(b);
 }
 
-/// Two vectors closer than `limit`. None of their differences is longer than the whole.
+/// Are two vectors closer than `limit`? No component of their difference is longer than the whole.
 bool closer(const Wide& a, const Wide& b, long double limit) {
     const Wide d = a - b;
     if (std::fabs(d.x) >= limit || std::fabs(d.y) >= limit || std::fabs(d.z) >= limit) return false;
     return glm::length(d) < limit;
 }
 
-/// Perpendicular to a triangle, twice its area long. Of its two shorter sides: a cross product rounds by the product of
-/// its factors, and in a sliver that of the long ones is little else.
+/// A vector perpendicular to a triangle, twice its area long, from its two shorter sides: a cross product rounds by the
+/// product of its factors, and in a sliver the product of the long sides is little else.
 Wide normal_of(const Wide& a, const Wide& b, const Wide& c) {
     const std::array<Wide, 3> sides{b - a, c - b, a - c};
     std::array<long double, 3> squares;
@@ -83,18 +82,19 @@ Wide normal_of(const Wide& a, const Wide& b, const Wide& c) {
     return glm::cross(sides[(longest + 1) % 3], sides[(longest + 2) % 3]);
 }
 
-/// Which three of a face's corners its plane goes through.
+/// The rule for the three corners of a face that its plane goes through.
 enum class Through {
-    first,   ///< that span one: as BRL-CAD chooses, which matters where a face is twisted
-    widest,  ///< whose rounding tilts the plane least: where one end of a face is a sliver
+    first,   ///< the first three that span a plane: as BRL-CAD chooses, which matters where a face is twisted
+    widest,  ///< the widest triangle, whose rounding tilts the plane least: it matters where one end of a face is a
+             ///< sliver
 };
 
 struct Triangle {
     Wide corner, normal;
 };
 
-/// Corners 0, 1, 2 if they are as wide as any three because opposite sides are equal to the last bit and shorter than
-/// both diagonals: then all four triangles have the same two shorter sides. None: it must be looked at more closely.
+/// Corners 0, 1, 2 if they are as wide as any three: opposite sides are equal to the last bit and shorter than both
+/// diagonals, so all four triangles have the same two shorter sides. None: a closer test is needed.
 std::optional<Triangle> half_of_rectangle(const std::array<Wide, 4>& corners, long double in_line) {
     const Wide u = corners[1] - corners[0], v = corners[2] - corners[1];
     if (corners[2] - corners[3] != u || corners[3] - corners[0] != v) return std::nullopt;
@@ -107,7 +107,8 @@ std::optional<Triangle> half_of_rectangle(const std::array<Wide, 4>& corners, lo
     return Triangle{corners[0], normal};
 }
 
-/// `corners`: the `count` of a face, each once. None: all are as good as in line.
+/// The three corners that span a face. `corners`: the `count` corners of a face, each once. None: all are nearly in
+/// line.
 std::optional<Triangle> spanning(const std::array<Wide, 4>& corners, std::size_t count, long double in_line,
                                  Through through) {
     if (count == 4 && through == Through::widest)
@@ -128,7 +129,7 @@ std::optional<Triangle> spanning(const std::array<Wide, 4>& corners, std::size_t
     return best;
 }
 
-/// The faces through the corners, of which those closer than `same` are one and those as good as in line span none.
+/// The faces through the corners. Corners closer than `same` are one, and corners nearly in line span no face.
 ArbFaces faces_through(const std::array<Wide, 8>& corners, long double same, long double in_line, long double size,
                        Through through) {
     static constexpr std::array<std::array<std::size_t, 4>, 6> faces{
@@ -195,8 +196,8 @@ ArbFaces arb_faces(const Arb& arb, const Matrix& matrix) {
         high = glm::max(high, corners[i]);
     }
     const long double size = glm::length(high - low);
-    // However thin, a convex arb is what its numbers say. Else corners that are nearly one may span a face that is
-    // rounding.
+    // A convex arb is taken as its numbers say, however thin it is. Else corners that are nearly equal may span a face
+    // of rounding alone.
     ArbFaces result =
         faces_through(corners, equal_corner_relative * size, equal_corner_relative, size, Through::widest);
     if (result.is_hull) return result;

@@ -35,7 +35,7 @@ PackedSketch place(const SketchParts& parts, SketchCenter center) {
     for (const CurvePiece& piece : parts.curves)
         for (const CurvePoint& p : piece) add(p.u, p.v);
     PackedSketch sketch;
-    if (u.low > u.high) return sketch;  // nothing at all
+    if (u.low > u.high) return sketch;  // the sketch is empty
     sketch.v = static_cast<double>((v.low + v.high) / 2);
     long double half = (v.high - v.low) / 2;
     if (center == SketchCenter::middle) {
@@ -48,13 +48,13 @@ PackedSketch place(const SketchParts& parts, SketchCenter center) {
     return sketch;
 }
 
-/// Puts the lines in the order of the hierarchy's leaves.
+/// Sorts the lines into the order of the hierarchy's leaves.
 Hierarchy sort_lines(std::vector<StraightLine>& lines, const PackedSketch& sketch) {
     std::vector<Box> boxes;
     boxes.reserve(lines.size());
     for (const StraightLine& line : lines) {
         boxes.push_back(empty_box);
-        // Equally deep, so that a box around many lines is rated by its circumference.
+        // The depth is equal for all, so that the heuristic rates a box around many lines by its circumference.
         const auto add = [&](long double u, long double v, double depth) {
             extend(boxes.back(), {static_cast<double>((u - sketch.u) / sketch.unit),
                                   static_cast<double>((v - sketch.v) / sketch.unit), depth});

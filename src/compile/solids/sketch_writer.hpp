@@ -1,4 +1,4 @@
-// Sketches as kernels/geometry/curve.h reads them.
+// Sketch writer: writes sketches as kernels/geometry/curve.h reads them.
 #pragma once
 
 #include <cstdint>
@@ -12,24 +12,24 @@ namespace csgrt {
 struct StraightLine {
     long double u0 = 0, v0 = 0, u1 = 0, v1 = 0;
 };
-/// The straight pieces of a sketch, and the others.
+/// The parts of a sketch: its straight lines, and its curves.
 struct SketchParts {
     std::vector<StraightLine> lines;
     std::vector<CurvePiece> curves;
 };
 SketchParts sketch_parts(std::vector<CurvePiece> pieces);
 
-/// What points are told from: the middle of them all, or that height of the axis u = 0.
+/// The origin of a sketch's points: the middle of them all, or the point at that height on the axis u = 0.
 enum class SketchCenter : std::uint8_t { middle, axis };
 
 struct PackedSketch {
     std::uint32_t first_word = 0;
     double u = 0, v = 0;  ///< the center
-    double unit = 1;      ///< a power of two; in it, from the center, all points lie within -1 and 1
+    double unit = 1;      ///< a power of two; in units of it all points lie within -1 and 1 of the center
 };
 
-/// Writes the parts, unless another place of the same solid has done so. Where points are told from the middle, the
-/// lines get a hierarchy of boxes and are put in the order of its leaves.
+/// Writes the parts, unless another instance of the same solid has done so. If the center is the middle, the lines get
+/// a hierarchy of boxes and are put in the order of its leaves.
 PackedSketch share_sketch(Shapes& scene, SharedParts& shared, const void* key, SketchParts& parts, SketchCenter center);
 
 /// A size as a position in one of the tables. Throws Error (scene) beyond 32 bits.

@@ -9,10 +9,10 @@ namespace {
 
 constexpr std::uint32_t none = CellTable::none;
 constexpr double point_cell = 1e-7;  // of the scene's radius
-constexpr double size_cell = 1e-7;   // of the size itself: its logarithm is looked up
+constexpr double size_cell = 1e-7;   // of the size itself: it is looked up by its logarithm
 constexpr double reach = 1e-9;       // far above `gap`, far below a cell
 
-// Parameters as geometry/{affine,ell,tgc,tor}.h have them.
+// Indices of parameters, as in geometry/{affine,ell,tgc,tor}.h.
 constexpr std::size_t taper0 = 12, taper1 = 13, tapers_differ = 16, tube = 12;
 
 bool has_apex_origin(std::uint32_t type, const double* reals) {
@@ -28,7 +28,7 @@ Wide local_of(const double* reals, const Wide& p) {
     return q;
 }
 
-/// How far, about, a point of the world lies outside the surface: f / |gradient of f|.
+/// The approximate distance of a point of the world outside the surface: f / |gradient of f|.
 long double distance(std::uint32_t type, const double* reals, const Wide& p) {
     const Wide q = local_of(reals, p);
     long double f = 0;
@@ -41,7 +41,7 @@ long double distance(std::uint32_t type, const double* reals, const Wide& p) {
         const long double r = std::hypot(q.x, q.y);
         if (type == SOLID_TGC) {
             const long double m = reals[taper0] + reals[taper1] * q.z;
-            f = r - m;  // beyond the apex there is another cone
+            f = r - m;  // beyond the apex there is the other nappe
             gradient = r > 0 ? Wide(q.x / r, q.y / r, -reals[taper1]) : Wide(0, 0, 1);
         } else {
             const long double out = r - 1, around = std::hypot(out, q.z);
@@ -56,7 +56,7 @@ long double distance(std::uint32_t type, const double* reals, const Wide& p) {
     return f / glm::length(in_world);
 }
 
-/// Points of a surface, all over it: more than a quadric or a torus has freedoms.
+/// Points all over a surface, more than a quadric or a torus has degrees of freedom.
 std::vector<Wide> points_on(std::uint32_t type, const double* reals, const WideMatrix& axes) {
     constexpr int around = 8;
     const long double pi = std::acos(-1.0L);
@@ -85,7 +85,7 @@ std::vector<Wide> points_on(std::uint32_t type, const double* reals, const WideM
     return points;
 }
 
-/// Where a surface is looked up: a point that belongs to it alone, and how large it is there.
+/// The key of a surface: a point that belongs to it alone, and its size there.
 struct Key {
     Wide point;
     long double size;
@@ -96,8 +96,10 @@ Key key_of(std::uint32_t type, const double* reals, const WideMatrix& axes, cons
     if (type == SOLID_TOR) return {center, glm::length(axes[0])};
     const long double p0 = reals[taper0], p1 = reals[taper1];
     const long double across = glm::length(glm::cross(axes[0], axes[1])), height = glm::length(axes[2]);
-    if (p1 != 0) return {center - (p0 / p1) * axes[2], across * p1 * p1 / (height * height)};  // its apex and how wide
-    const Wide u = axes[2] / height;  // a cylinder: where its axis passes the middle of the scene
+    if (p1 != 0)
+        return {center - (p0 / p1) * axes[2], across * p1 * p1 / (height * height)};  // its apex, and its
+                                                                                      // width
+    const Wide u = axes[2] / height;  // a cylinder: the point of its axis nearest to the middle of the scene
     return {center + glm::dot(wide(scene_center) - center, u) * u, across * p0 * p0};
 }
 
@@ -117,7 +119,7 @@ std::optional<SurfaceTable::Surface> SurfaceTable::surface_of(std::uint32_t type
 }
 
 std::array<Shards::Chunk::Dimension, 5> SurfaceTable::coarse_cells(const Surface& surface) const {
-    // What is found in a cell may lie anywhere in it.
+    // A result may lie anywhere in its cell.
     constexpr double of_point = 2 * (reach + point_cell), of_size = 2 * (reach + size_cell);
     const auto along = [&](int i) {
         return Shards::Chunk::Dimension{surface.at[i], of_point * radius_ + 10 * rounding_,
@@ -161,7 +163,7 @@ SurfaceTable::Found SurfaceTable::add(const Surface& surface, std::uint32_t numb
                 }
     if (found != none) {
         const std::span<double> first = reals_of(entries_[found].number);
-        // A cone with its apex for origin keeps its digits there; one that was cut off has none to lose.
+        // A cone with its apex as origin keeps its digits at the apex; a cone whose apex is cut off has none to lose.
         if (has_apex_origin(surface.type, mine.data()) && !has_apex_origin(surface.type, first.data()))
             std::copy(mine.begin(), mine.end(), first.begin());
         return {entries_[found].number, static_cast<double>(-out)};

@@ -1,5 +1,5 @@
-// Curved surfaces that several solids share: balls, sides of cylinders and cones, tori. The first solid's numbers stand
-// for all, so that a ray meets them at the very same distance, as planes.hpp does for flat faces.
+// Surface table: curved surfaces that several solids share: balls, sides of cylinders and cones, tori. All of them use
+// the first solid's numbers, so that a ray meets them at the very same distance, as planes.hpp does for flat faces.
 #pragma once
 
 #include <array>
@@ -20,38 +20,38 @@ namespace csgrt {
 
 class SurfaceTable {
 public:
-    /// One surface is another if nowhere on the smaller solid they lie farther apart than this, of its box's diagonal;
-    /// far from the origin, than coordinate_rounding (linear.hpp).
+    /// The limit of distance: two surfaces are one if nowhere on the smaller solid they lie farther apart than this,
+    /// relative to its box's diagonal; far from the origin the limit is coordinate_rounding (linear.hpp).
     static constexpr double gap = 1e-10;
 
-    /// `around`: a sphere around the scene.
+    /// Makes an empty table. `center`, `radius`: a sphere around the scene.
     SurfaceTable(const Vec3& center, double radius)
         : center_(center), radius_(radius), rounding_(coordinate_rounding * largest_coordinate(center, radius)) {}
 
-    /// A surface as it is looked up; depends on nothing else, so several threads may find it ahead.
+    /// A surface as it is looked up. It depends on nothing else, so several threads may find surfaces ahead.
     struct Surface {
         std::uint32_t type;
         double at[4];  ///< a point that belongs to it alone, from the scene's centre; the logarithm of its size
-        double limit;  ///< one that lies no farther off is the same
+        double limit;  ///< an equal surface differs by no more
     };
-    /// None for solids whose surfaces are not shared.
+    /// The surface of a solid; none for types whose surfaces are not shared.
     std::optional<Surface> surface_of(std::uint32_t type, const double* reals, const WideMatrix& axes,
                                       const Box& box) const;
-    /// Surfaces that may be the same share a cell.
+    /// Cells for the shards: surfaces that may be equal share a cell.
     std::array<Shards::Chunk::Dimension, 5> coarse_cells(const Surface& surface) const;
 
     /// The parameters of a solid, by its number, and its local axes in the world.
     using RealsOf = std::function<std::span<double>(std::uint32_t)>;
     using AxesOf = std::function<WideMatrix(std::uint32_t)>;
-    /// `solid`: whose parameters stand for those of solid `number`: an earlier one with the same surface, or itself.
-    /// `depth`: how far inside of that one's surface its own lies, millimetres; negative: outside.
+    /// The result of a search. `solid`: the solid whose parameters solid `number` uses: an earlier one with the same
+    /// surface, or itself. `depth`: how far its own surface lies inside that solid's, millimetres; negative: outside.
     struct Found {
         std::uint32_t solid;
         double depth;
     };
     Found add(const Surface& surface, std::uint32_t number, const RealsOf& reals_of, const AxesOf& axes_of);
 
-    /// Without surfaces, in the memory that it has.
+    /// Removes the surfaces, and keeps the memory.
     void clear() {
         entries_.clear();
         cells_.clear();
@@ -60,14 +60,14 @@ public:
 private:
     struct Entry {
         std::uint32_t number;
-        std::uint32_t next;  ///< in the same cell
+        std::uint32_t next;  ///< next entry in the same cell
     };
 
     Vec3 center_;
     double radius_;
     double rounding_;  ///< of coordinates in the scene
     std::vector<Entry> entries_;
-    CellTable cells_;  ///< the last entry of each
+    CellTable cells_;  ///< the last entry of each cell
 };
 
 }  // namespace csgrt

@@ -24,7 +24,7 @@ std::string counted(std::size_t count, const char* one, const char* many) {
     return std::to_string(count) + " " + (count == 1 ? one : many);
 }
 
-/// Different for different keys (each step can be undone), and as good as random.
+/// A hash: different for different keys (each step can be undone), and as good as random.
 std::uint64_t scrambled(std::uint64_t key) {
     key = (key ^ key >> 32) * 0xd6e8feb86659fd93u;
     key = (key ^ key >> 32) * 0xd6e8feb86659fd93u;
@@ -55,11 +55,11 @@ std::vector<std::uint32_t> first_at_point(const std::vector<Vec3>& vertices) {
     return first;
 }
 
-/// Where numbers of faces or edges are listed by what they belong to.
+/// Lists of numbers of faces or edges, one list an owner.
 struct Lists {
     std::vector<std::uint32_t> first, all;
 
-    /// `each(add)` calls add(owner, member) for all, and does so twice.
+    /// Makes the lists. `each(add)` calls add(owner, member) for all members; it is called twice.
     template <class Each>
     Lists(std::size_t owners, const Each& each) : first(owners + 1, 0) {
         each([&](std::uint32_t owner, std::uint32_t) { ++first[owner + 1]; });
@@ -72,17 +72,17 @@ struct Lists {
     auto end_of(std::uint32_t owner) const { return all.begin() + first[owner + 1]; }
 };
 
-/// The edges of faces, each once; ends are points.
+/// The edges of faces, each once, between two points.
 struct Edges {
     struct Edge {
         std::uint32_t low, high;
         std::uint32_t faces = 0;
-        std::int32_t sense = 0;  ///< faces that run through it from low to high, less the others
+        std::int32_t sense = 0;  ///< faces that run through it from low to high, less those from high to low
     };
     std::vector<Edge> all;
     std::vector<Corners> of_face;  ///< edge k begins at corner k
     std::size_t open = 0, crowded = 0;
-    bool winds_one_way = true;  ///< the faces of every edge that is not open run through it in both ways equally often
+    bool winds_one_way = true;  ///< for every edge that is not open, equally many faces run through it in both ways
 
     explicit Edges(const std::vector<Corners>& faces) {
         CellTable table;
@@ -112,7 +112,7 @@ struct Edges {
     }
 };
 
-/// Tells faces apart by their points, however they wind.
+/// Numbers faces by their points, whichever way they wind.
 class FaceNumbers {
 public:
     /// The number of a face, which is the next one if the face is new. Its points must differ.
@@ -137,18 +137,18 @@ private:
     std::uint32_t edge_count_ = 0, face_count_ = 0;
 };
 
-/// What becomes of faces that are given several times.
+/// Rules for faces that are given several times.
 enum class Copies {
     count_once,
-    vanish_as_walls,   ///< those count not at all without which edges have an even number of faces
-    vanish_as_sheets,  ///< nor do those of which both sides are given, and for which no edge asks
+    vanish_as_walls,   ///< faces do not count if edges have an even number of faces without them
+    vanish_as_sheets,  ///< nor do faces of which both sides are given, and that no edge needs
 };
 
 struct Counts {
     std::size_t repeated = 0, walls = 0, flat = 0, split = 0, turned = 0, not_looked_at = 0;
 };
 
-/// A bot's faces on the way to a surface.
+/// Repairs a bot's faces, on the way to a closed surface.
 class Mender {
 public:
     explicit Mender(const Bot& bot);
@@ -177,13 +177,13 @@ private:
     std::vector<std::uint32_t> point_;  ///< of each vertex
     double reach_ = 0, size_ = 0;
     std::vector<Corners> faces_;       ///< points
-    std::vector<std::uint32_t> from_;  ///< as MendedMesh has it
-    /// Of each face, while they are chosen: how often it is given, and how often wound the other way; may it be left
-    /// out?
+    std::vector<std::uint32_t> from_;  ///< as in MendedMesh
+    /// One entry a face, while they are chosen: how often it is given, and how often wound the other way; whether it
+    /// may be left out.
     std::vector<std::uint32_t> copies_, turned_copies_;
     std::vector<bool> optional_;
     bool any_optional_ = false;
-    bool has_gaps_ = false;  ///< edges are open before faces are cut
+    bool has_gaps_ = false;  ///< edges were open before faces were cut
     Counts counts_;
 };
 
@@ -199,7 +199,7 @@ Mender::Mender(const Bot& bot) : bot_(bot), point_(first_at_point(bot.vertices))
     size_ = length(high - low);
 }
 
-/// As far as the rounding of its vertices tells. Not for two equal ones.
+/// Is the face flat, as far as the rounding of its vertices tells? False for a face with two equal points.
 bool Mender::is_flat(const Corners& face) const {
     const Vec3 &a = bot_.vertices[face[0]], &b = bot_.vertices[face[1]], &c = bot_.vertices[face[2]];
     const Vec3 u = b - a, v = c - a, w = c - b, n = cross(u, v);
@@ -214,7 +214,7 @@ bool even_turn(const Corners& a, const Corners& b) {
 
 bool has_two_equal(const Corners& face) { return face[0] == face[1] || face[1] == face[2] || face[2] == face[0]; }
 
-/// Each face once, less those with two equal points.
+/// Takes each face once, without those with two equal points.
 void Mender::take_faces() {
     FaceNumbers number_of;
     faces_.reserve(bot_.faces.size());
@@ -241,8 +241,8 @@ void Mender::take_faces() {
     }
 }
 
-/// Which of the faces that may be left out count, so that edges have an even number of faces: an edge at which only one
-/// is not decided yet decides it. An edge that has but one face in all asks for nothing.
+/// Decides which of the optional faces count, so that edges have an even number of faces. An edge with one undecided
+/// face decides it. An edge that has only one face in all decides nothing.
 void Mender::choose(Copies rule) {
     if (!any_optional_) return;
     const Edges edges(faces_);
@@ -277,7 +277,7 @@ void Mender::choose(Copies rule) {
         }
     };
     settle();
-    // What no edge decides: copies of one face are one, and a face without an area is none.
+    // Faces that no edge decides: copies of one face count once, and a face without an area does not count.
     const auto is_sheet = [&](std::uint32_t f) {
         return 2 * turned_copies_[f] == copies_[f] &&
                std::any_of(edges.of_face[f].begin(), edges.of_face[f].end(),
@@ -309,10 +309,10 @@ void Mender::choose(Copies rule) {
     from_.resize(kept);
 }
 
-/// Which ends of `edges` lie in the middle of each of them, from low to high. Edges that lie on one another, all with
-/// the same points, are not looked at to the end: that would take the square of their number.
+/// Lists for each edge the ends of `edges` in its middle, from low to high. Edges that lie on one another, all with the
+/// same points, are not searched to the end: this would take the square of their number.
 std::vector<std::vector<std::uint32_t>> Mender::points_on(const std::vector<Edges::Edge>& edges) {
-    // What rounding to single precision leaves.
+    // The distance that rounding to single precision makes.
     const double near = std::min(0x1p-23 * reach_, 1e-6 * size_);
     const std::vector<Vec3>& v = bot_.vertices;
     std::vector<std::uint32_t> ends;
@@ -320,7 +320,7 @@ std::vector<std::vector<std::uint32_t>> Mender::points_on(const std::vector<Edge
     std::sort(ends.begin(), ends.end());
     ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
 
-    // Cells so small that a surface has about one end in each; and no smaller than what is looked for.
+    // The cell's size: so small that a surface has about one end in each, and not smaller than the search distance.
     const double side =
         std::max(size_ / std::clamp(std::sqrt(static_cast<double>(ends.size())), 1.0, 1024.0), 2 * near);
     const auto cell = [&](double x) { return static_cast<std::int64_t>(std::floor(x / side)); };
@@ -346,7 +346,7 @@ std::vector<std::vector<std::uint32_t>> Mender::points_on(const std::vector<Edge
             if (!(along > near && along < whole - near) || !(length(cross(ap, ab)) <= near * whole)) return;
             on.emplace_back(along, p);
         };
-        // Cell by cell along the axis that the edge runs along most, all that it touches there.
+        // Searches, along the axis that the edge runs along most, the cells that it touches.
         const std::array<double, 3> from{a.x, a.y, a.z}, way{ab.x, ab.y, ab.z};
         std::size_t axis = 0;
         for (std::size_t k = 1; k < 3; ++k)
@@ -384,7 +384,7 @@ std::vector<std::vector<std::uint32_t>> Mender::points_on(const std::vector<Edge
     return found;
 }
 
-/// A face's edges from corner to corner, with the points in the middle of each: triangles between them.
+/// Cuts of a face: the points in the middle of each of its edges, from corner to corner.
 using Cuts = std::array<std::vector<std::uint32_t>, 3>;
 void cut(Corners face, Cuts on, std::vector<Corners>& parts) {
     while (on[0].empty()) {
@@ -402,7 +402,7 @@ void cut(Corners face, Cuts on, std::vector<Corners>& parts) {
     fan(on[0].back(), face[1], on[1], face[2]);
 }
 
-/// Cuts faces at the points in the middle of their open edges, where that leaves none of their parts open.
+/// Cuts faces at the points in the middle of their open edges, where this leaves none of their parts open.
 bool Mender::split(const Edges& edges) {
     std::vector<Edges::Edge> open;
     std::vector<std::uint32_t> number(edges.all.size(), none);
@@ -413,7 +413,7 @@ bool Mender::split(const Edges& edges) {
     }
     std::vector<std::vector<std::uint32_t>> points = points_on(open);
 
-    // An edge is split if all its parts are closed once all that are split are. Those that are not leave others open.
+    // An edge is split if all its parts are closed after all splits. Edges that are not split leave others open.
     for (bool changed = true; changed;) {
         std::unordered_map<std::uint64_t, bool> odd;
         const auto part_of = [&](std::uint32_t a, std::uint32_t b) -> bool& {
@@ -457,7 +457,8 @@ bool Mender::split(const Edges& edges) {
     return counts_.split > 0;
 }
 
-/// How many faces wind against most of those that edges of two faces join them to. `apply`: turns them over.
+/// Counts the faces that wind against most of the faces to which edges of two faces join them. `apply`: turns them
+/// over.
 std::size_t Mender::turn_over(const Edges& edges, bool apply) {
     const Lists at(edges.all.size(), [&](const auto& add) {
         for (std::uint32_t f = 0; f < faces_.size(); ++f)
@@ -498,7 +499,7 @@ std::size_t Mender::turn_over(const Edges& edges, bool apply) {
     return all;
 }
 
-/// Of a closed surface that winds one way.
+/// Does a closed surface that winds one way wind outward?
 bool Mender::winds_outward() const {
     const Vec3& middle = bot_.vertices[faces_[0][0]];
     double volume = 0;
@@ -513,7 +514,7 @@ MendedMesh Mender::finish(std::vector<std::string> notes) const {
     return {{bot_.vertices, as_given ? bot_.faces : faces_}, from_, true, false, std::move(notes)};
 }
 
-/// The edges, after faces are cut where that closes some.
+/// Makes the edges, after faces are cut where this closes some.
 Edges Mender::joined() {
     Edges edges(faces_);
     has_gaps_ = edges.open > 0;
@@ -524,7 +525,7 @@ Edges Mender::joined() {
 MendedMesh Mender::volume() {
     take_faces();
     if (!any_optional_) return surface(joined());
-    // The first rule that leaves the fewest edges open.
+    // The best rule is the first that leaves the fewest edges open.
     std::optional<Mender> best;
     std::optional<Edges> best_edges;
     for (const Copies rule : {Copies::count_once, Copies::vanish_as_walls, Copies::vanish_as_sheets}) {
@@ -578,7 +579,7 @@ MendedMesh Mender::surface(const Edges& edges) {
 MendedMesh Mender::plates() {
     FaceNumbers number_of;
     std::vector<std::uint32_t> last,
-        before;  // kept faces: of each number the last one, and of each of them the one before it
+        before;  // kept faces: for each number the last face, and for each face the previous one
     const auto same_plate = [&](std::uint32_t a, std::uint32_t b) {
         if (bot_.mode == Bot::Mode::surface) return true;
         return bot_.thickness[a] == bot_.thickness[b] && (bot_.append.empty() || bot_.append[a] == bot_.append[b]);
@@ -604,7 +605,7 @@ MendedMesh Mender::plates() {
     return finish(common_notes());
 }
 
-/// Of faces that do not count, in any mode.
+/// Notes on faces that do not count, in any mode.
 std::vector<std::string> Mender::common_notes() const {
     std::vector<std::string> notes;
     if (counts_.repeated > 0)

@@ -1,5 +1,5 @@
-// Looking numbers up that may differ by rounding: cells much larger than what is looked for, so that one cell is
-// enough, nearly always.
+// Near lookup: finds numbers that may differ by rounding. Cells are much larger than the differences, so that one cell
+// is enough, nearly always.
 #pragma once
 
 #include <algorithm>
@@ -17,11 +17,11 @@ struct CellRange {
 };
 /// The cell of a value, in units of cells; centres are at whole numbers.
 inline std::int64_t nearest_cell(double at) {
-    constexpr double most = 9e18;  // those beyond share a cell
+    constexpr double most = 9e18;  // values beyond share a cell
     if (std::isnan(at)) return 0;  // 0 in cells of size 0
     return static_cast<std::int64_t>(std::clamp(at + std::copysign(0.5, at), -most, most));
 }
-/// The cells that value - tolerance to value + tolerance touches; centres are at multiples of `cell`.
+/// The cells that the interval from value - tolerance to value + tolerance touches; centres are at multiples of `cell`.
 inline CellRange cells_of(double value, double tolerance, double cell) {
     const double at = value / cell;
     if (std::fabs(at) < 0x1p30) {  // rounding moves it by less than 1e-6
@@ -41,11 +41,11 @@ std::uint64_t cell_hash(const Cell& cell) {
     return hash;
 }
 
-/// The same, all bits of it mixed: hashes of neighbouring cells differ in few, all of them low ones or high ones.
+/// The hash of a cell with all bits mixed: hashes of neighbouring cells differ in few bits, all of them low or high.
 inline std::uint64_t mixed(std::uint64_t hash) { return hash * 0x9e3779b97f4a7c15u; }
 
-/// From the hashes of cells to numbers, in one piece of memory: a scene has millions of cells, each looked up once or
-/// twice.
+/// A table from the hashes of cells to numbers, in one block of memory: a scene has millions of cells, each looked up
+/// once or twice.
 class CellTable {
 public:
     static constexpr std::uint32_t none = 0xffffffff;
@@ -55,11 +55,11 @@ public:
         if (slots_.empty()) return none;
         return slots_[slot_of(hash)].number;
     }
-    /// Asks for the memory where a cell's number is.
+    /// Prefetches the memory of a cell's number.
     void prefetch(std::uint64_t hash) const {
         if (!slots_.empty()) prefetch_line(&slots_[first_slot_of(hash)]);
     }
-    /// Gives a cell a number and returns the one that it had.
+    /// Sets a cell's number and returns the previous one.
     std::uint32_t exchange(std::uint64_t hash, std::uint32_t number) {
         if (2 * count_ >= slots_.size()) grow();
         Slot& slot = slots_[slot_of(hash)];
@@ -69,7 +69,7 @@ public:
         return before;
     }
 
-    /// Keeps the memory, unless it is far more than what was in it: that would be cleared in vain once more.
+    /// Empties the table. The memory is kept, unless it is far larger than the contents: clearing it would waste time.
     void clear() {
         if (slots_.size() > 64 * (count_ + 1)) slots_.clear();
         std::fill(slots_.begin(), slots_.end(), Slot{0, none});

@@ -1,4 +1,4 @@
-// Terrain and volumes: grids of cells.
+// Triangles of grids: terrain and volumes.
 #include <cmath>
 
 #include "compile/solids/meshes/triangles.hpp"
@@ -8,7 +8,7 @@ namespace csgrt {
 
 namespace {
 
-/// Heights by cell and corner; beyond the border the last one is repeated.
+/// Heights of a terrain, by cell and corner; beyond the border the last height is repeated.
 class Terrain {
 public:
     explicit Terrain(const Dsp& dsp) : dsp_(dsp) {}
@@ -20,8 +20,8 @@ public:
         return dsp_.heights[within(y, dsp_.depth) * dsp_.width + within(x, dsp_.width)];
     }
 
-    /// Is the cell cut from its lower left to its upper right corner? Adaptive: along the diagonal that bends less,
-    /// seen from the corners before it to the corners behind it, which is the other one if they bend alike.
+    /// Is the cell cut from its lower left to its upper right corner? The adaptive cut is along the diagonal that bends
+    /// less, seen from the corners before it to the corners behind it; if both bend alike, it is the other one.
     bool is_cut_upward(std::int64_t x, std::int64_t y) const {
         switch (dsp_.cut) {
             case Dsp::Cut::lower_left:
@@ -91,8 +91,8 @@ public:
     explicit Volume(const Vol& vol)
         : vol_(vol), size_{std::int64_t{vol.width}, std::int64_t{vol.depth}, std::int64_t{vol.height}} {}
 
-    /// Calls once for every face between a solid cell and one that is not: with the cell on its far side, the axis
-    /// across it.
+    /// Calls once for every face between a solid cell and an empty one: with the solid cell on its far side, and the
+    /// axis across it.
     template <class Call>
     void for_each_face(const Call& call) const {
         for (std::int64_t z = 0; z <= size_[2]; ++z)

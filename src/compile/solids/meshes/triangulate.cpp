@@ -20,7 +20,7 @@ long double area(const Point& a, const Point& b, const Point& c) {
     return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
-/// Newell's: the sum of the areas seen along each axis.
+/// Newell's normal: the sum of the areas seen along each axis.
 Wide normal_of(const std::vector<Vec3>& vertices, const std::vector<std::uint32_t>& loop) {
     Wide n(0);
     const Wide origin = wide(vertices[loop[0]]);
@@ -33,7 +33,7 @@ Wide normal_of(const std::vector<Vec3>& vertices, const std::vector<std::uint32_
 class Polygon {
 public:
     Polygon(const std::vector<Vec3>& vertices, const Wide& normal) : vertices_(vertices) {
-        // Seen along the axis that the normal is nearest to, counterclockwise.
+        // The polygon is seen along the axis that the normal is nearest to, counterclockwise.
         const Wide size = glm::abs(normal);
         const int axis = size.x > size.y && size.x > size.z ? 0 : size.y > size.z ? 1 : 2;
         x_ = (axis + 1) % 3;
@@ -91,8 +91,8 @@ private:
         corners_[b].prev = a;
     }
 
-    /// Does the polygon, close to a corner, lie on the way from it to p? Of the copies of a corner that bridges end in,
-    /// one does.
+    /// Does the direction from a corner to p lead into the polygon? Of the copies of a corner that bridges make, one
+    /// does.
     bool opens_towards(std::size_t corner, const Point& p) const {
         const bool in = area(at(corners_[corner].prev), at(corner), p) >= 0;
         const bool out = area(at(corner), at(corners_[corner].next), p) >= 0;
@@ -108,10 +108,10 @@ private:
     std::size_t start_ = 0;
 };
 
-/// Joins a hole to the outline by an edge there and back, from its rightmost corner to one that it sees.
+/// Joins a hole to the outline by a bridge, an edge there and back, from its rightmost corner to a corner that it sees.
 void Polygon::bridge(std::size_t hole) {
     const Point h = at(hole);
-    // The nearest edge to the right, and the one of its ends that lies farther right.
+    // The nearest edge to the right, and its end that lies farther right.
     long double nearest = std::numeric_limits<long double>::infinity();
     std::size_t seen = start_;
     bool found = false;
@@ -121,8 +121,8 @@ void Polygon::bridge(std::size_t hole) {
         const Point p = at(c), q = at(next);
         if (p.y != q.y && std::min(p.y, q.y) <= h.y && h.y <= std::max(p.y, q.y)) {
             const long double x = p.x + (h.y - p.y) / (q.y - p.y) * (q.x - p.x);
-            // The outline runs counterclockwise: what it encloses is to the left of an edge that goes up.
-            // An end of the edge may stand there more than once; the ray comes to one that opens towards it.
+            // The outline runs counterclockwise: its inside is to the left of an edge that goes up. The edge's end may
+            // have several copies; the ray comes to the copy that opens towards it.
             const std::size_t end = p.y == h.y ? c : q.y == h.y ? next : p.x > q.x ? c : next;
             const bool meets = at(end).y != h.y || opens_towards(end, h);
             if (x >= h.x && x < nearest && p.y < q.y && meets) {
@@ -133,7 +133,8 @@ void Polygon::bridge(std::size_t hole) {
         }
         c = next;
     } while (c != start_);
-    // A corner within the triangle of hole, edge and that end stands in the way: then the one least off the line.
+    // A corner within the triangle of hole, edge and this end hides it: then the bridge goes to the one least off the
+    // line.
     if (found && at(seen).y != h.y) {
         const Point foot{nearest, h.y}, end = at(seen);
         const long double side = area(h, foot, end) > 0 ? 1 : -1;
@@ -162,7 +163,7 @@ void Polygon::bridge(std::size_t hole) {
     join(hole_again, seen_again);
 }
 
-/// A corner that turns left, with no other corner in its triangle. Only those that turn right can be in it.
+/// An ear is a corner that turns left, with no other corner in its triangle. Only corners that turn right can be in it.
 bool Polygon::is_ear(std::size_t corner) const {
     const std::size_t prev = corners_[corner].prev, next = corners_[corner].next;
     const Point a = at(prev), b = at(corner), c = at(next);
@@ -179,7 +180,7 @@ void Polygon::cut(std::vector<std::array<std::uint32_t, 3>>& triangles) {
     std::size_t left = 1;
     for (std::size_t c = corners_[start_].next; c != start_; c = corners_[c].next) ++left;
     std::size_t corner = start_, misses = 0;
-    bool any = false;  // nothing is an ear any more: whatever comes next is cut
+    bool any = false;  // no corner is an ear: the next corner is cut
     while (left >= 3) {
         const std::size_t prev = corners_[corner].prev, next = corners_[corner].next;
         if (!any && turn(corner) != 0 && !is_ear(corner)) {
@@ -191,7 +192,7 @@ void Polygon::cut(std::vector<std::array<std::uint32_t, 3>>& triangles) {
         join(prev, next);
         --left;
         misses = 0;
-        corner = corners_[next].next;  // by turns, so that no corner becomes the tip of a fan
+        corner = corners_[next].next;  // alternates, so that no corner becomes the tip of a fan
     }
 }
 
