@@ -12,7 +12,7 @@ namespace csgrt {
 
 inline constexpr std::uint32_t tile_rays = TILE * TILE;
 
-/// Rays [first, first + rays) of a picture, which are numbered tile by tile, or of a list.
+/// Rays [first, first + rays) of a picture, whose rays are numbered tile by tile, or of a list.
 struct RayBatch {
     std::uint32_t first = 0, rays = 0;
     bool operator==(const RayBatch&) const = default;
@@ -20,11 +20,11 @@ struct RayBatch {
     std::uint32_t first_tile() const { return first / tile_rays; }
     std::uint32_t end_tile() const { return (first + rays) / tile_rays; }
     std::uint32_t tiles() const { return rays / tile_rays; }
-    /// False: it is a part of a tile, because the memory holds no more.
+    /// False: the batch is a part of a tile, because the memory holds no more.
     bool is_whole_tiles() const { return rays % tile_rays == 0; }
 };
 
-/// A batch of one ray does not fit. Throws Error (out_of_memory).
+/// Throws Error (out_of_memory): even a batch of one ray does not fit.
 [[noreturn]] inline void throw_too_long_ray(std::uint64_t budget) {
     throw Error(Status::out_of_memory, "the segments of one ray do not fit the device's memory (" +
                                            std::to_string(budget >> 20) +

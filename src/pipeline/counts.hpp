@@ -1,4 +1,4 @@
-// What the pipeline counts and times.
+// Counts and times of the pipeline.
 #pragma once
 
 #include <cstdint>
@@ -10,28 +10,28 @@
 
 namespace csgrt {
 
-/// Figures of one frame, summed over its batches. Times are the device's own, in milliseconds.
+/// Counts and times of one frame, summed over its batches. Times are the device's own, in milliseconds.
 struct PipelineCounts {
     std::uint64_t ends = 0, segments = 0, partitions_used = 0, partitions_allocated = 0, overlaps = 0;
     std::uint64_t segment_bytes = 0, partition_bytes = 0;
-    std::uint32_t batches = 0, retried = 0;  ///< retried: batches for which the buffers at hand did not do
+    std::uint32_t batches = 0, retried = 0;  ///< retried: batches for which the buffers at hand were too small
     std::vector<RayBatch> done;              ///< the batches
     double count_segments = 0, scan = 0, store_segments = 0, weave = 0, evaluate = 0, shade = 0, rows = 0;
     double cull_tiles = 0, first_hits = 0;
-    std::vector<TimeSpan> spans;  ///< of all kernels of one device; a sum has none
+    std::vector<TimeSpan> spans;  ///< of all kernels of one device; a sum over devices has none
     double kernels = 0;           ///< time in which kernels ran, whether one or several at once
 
     PipelineCounts& operator+=(const PipelineCounts& other);
 };
 
-/// Kernels that run or have run, each with the figure that its time is added to.
+/// Kernels that run or have run, each with the member to which its time is added.
 using TimedKernels = std::vector<std::pair<double PipelineCounts::*, Event>>;
 
-/// Adds up how long kernels took. Waits for them.
+/// Adds the time of a kernel. Waits for it.
 void add_time(double PipelineCounts::*figure, const Event& kernel, PipelineCounts& counts);
 void add_times(const TimedKernels& timed, PipelineCounts& counts);
 
-/// Milliseconds that at least one of the spans covers.
+/// The milliseconds that at least one of the spans covers.
 double covered_time(std::vector<TimeSpan> spans);
 
 }  // namespace csgrt

@@ -1,4 +1,4 @@
-// One batch on the device.
+// Batch buffers: the memory of one batch on the device.
 #pragma once
 
 #include <cstdint>
@@ -8,8 +8,8 @@
 
 namespace csgrt {
 
-/// Which rays a batch's kernels are run for, and in which buffer they are listed: tiles of a picture, single pixels of
-/// it, or rays as they were given.
+/// The kind of rays that a batch's kernels run for, and so the buffer that lists them: tiles of a picture, single
+/// pixels of it, or rays as the caller gave them.
 enum class Work : std::uint32_t { tiles = WORK_TILES, pixels = WORK_PIXELS, rays = WORK_RAYS };
 
 struct BatchBuffers {
@@ -24,15 +24,15 @@ struct BatchBuffers {
           overflown(device, "rays that overflowed") {}
 
     Buffer frame;       ///< kernel::Frame in the program's precision
-    Buffer costs;       ///< of each tile a byte: kernel 0's estimate of its cost, 0 if its rays see nothing
-    Buffer tile_nodes;  ///< of each tile LISTED_NODES kernel::TileNode
-    Buffer tiles;       ///< Work::tiles: their numbers, on a GPU with the number of a part (PART_SHIFT)
-    Buffer pixels;      ///< Work::pixels: the numbers of their rays
+    Buffer costs;       ///< one byte a tile: kernel 0's estimate of its cost, 0 if its rays see nothing
+    Buffer tile_nodes;  ///< LISTED_NODES kernel::TileNode a tile
+    Buffer tiles;       ///< Work::tiles: the tiles' numbers, on a GPU with the number of a part (PART_SHIFT)
+    Buffer pixels;      ///< Work::pixels: the numbers of the pixels' rays
     Buffer rays;        ///< Work::rays: kernel::RayRecord in the program's precision
-    Buffer report;      ///< kernel::BatchReport, and of each tile a byte: not 0 if it shows something
-    Buffer overflown;   ///< first hits: the numbers of rays that had no place for all their segments
+    Buffer report;      ///< kernel::BatchReport, and one byte a tile: not 0 if it shows something
+    Buffer overflown;   ///< first hits: the numbers of rays without room for all their segments
 
-    /// Kernels' list of tiles or of pixels; nothing for rays as they were given.
+    /// The kernels' list of tiles or of pixels; it has no meaning for rays as the caller gave them.
     const Buffer& numbers(Work work) const { return work == Work::pixels ? pixels : tiles; }
 
     static std::uint64_t report_bytes(const RayBatch& batch) {
@@ -50,7 +50,7 @@ struct BatchBuffers {
         tile_nodes.release();
         release_lists();
     }
-    /// The same, but for what kernel 0 wrote.
+    /// Gives the memory back, except that which kernel 0 wrote.
     void release_lists() {
         for (Buffer* buffer : {&tiles, &pixels, &rays, &report, &overflown}) buffer->release();
     }

@@ -1,4 +1,5 @@
-// Kernel 0: which tiles of a batch can see anything, and which nodes of the hierarchy their rays meet.
+// Culling pass (kernel 0): finds the tiles of a batch that can see anything, and the nodes of the hierarchy that their
+// rays meet.
 #pragma once
 
 #include "pipeline/passes/batch_buffers.hpp"
@@ -9,12 +10,12 @@ namespace csgrt {
 
 class CullPass {
 public:
-    /// `program` holds the kernel of `file`.
+    /// Takes the kernel of `file` from `program`.
     CullPass(Device& device, const Program& program);
     static constexpr const char* file = "0_cull_tiles.cl";
 
     /// Writes the costs of the frame's tiles and lists their nodes: by distance for first hits, else in the hierarchy's
-    /// order (on a GPU, for every partition, not at all: `tile_nodes` is empty). Clears the report of a batch whose
+    /// order. A GPU lists no nodes for every partition: `tile_nodes` is empty. Clears the report of a batch whose
     /// pixels are row-major. Does not wait.
     Event launch(const SceneTables& scene, BatchBuffers& batch, const kernel::Frame& frame);
     /// The numbers of the batch's tiles that may see a solid, ascending. Waits.

@@ -22,7 +22,7 @@ DeepRayPass::Tree::Tree(Device& device, const StatusTree& tree, std::uint32_t re
       cluster_words(static_cast<std::uint32_t>(tree.outside.size())),
       words(cluster_words + kernel::words_of_set(regions)) {}
 
-// Processors take few rays at a time: what these change stays in their caches.
+// Processors take few rays at a time, so that the rays' status stays in their caches.
 DeepRayPass::DeepRayPass(Device& device, const Program& program, const CompiledScene& scene)
     : rays_at_a_time(device.info().type == "cpu" ? 256 : 65'536),
       device_(device),
@@ -98,7 +98,7 @@ bool DeepRayPass::prepare(const std::vector<kernel::RayCount>& offsets, std::uin
     return true;
 }
 
-// The last of the merges leaves the order in the nodes' `next`.
+// The last merge leaves the order in the nodes' `next`.
 void DeepRayPass::sort(PartitionMemory& memory, TimedKernels& timed) {
     const cl_uint count = static_cast<cl_uint>(listed_.size() - 1), blocks = listed_.back().block;
     const auto add = [&](Event event) { timed.emplace_back(&PipelineCounts::weave, std::move(event)); };

@@ -3,7 +3,7 @@
 namespace csgrt {
 namespace {
 
-/// The processor's caches hold too little of it.
+/// Is the hierarchy larger than the processor's caches?
 bool is_large(const CompiledScene& scene) { return scene.nodes.size() > 1u << 18; }
 
 bool prefetches(const Device& device, const CompiledScene& scene, const Settings& settings) {

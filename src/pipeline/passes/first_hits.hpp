@@ -1,4 +1,4 @@
-// The first hits of a batch, in one kernel. Nothing is stored but the picture.
+// First-hit pass: draws the first hits of a batch in one kernel, which stores only the picture.
 #pragma once
 
 #include "pipeline/counts.hpp"
@@ -11,11 +11,11 @@ public:
     /// Compiles its kernels. Throws Error (device_fault).
     FirstHitPass(Device& device, const CompiledScene& scene, const Settings& settings);
 
-    /// Draws the pixels of the batch's tiles, which are culled and listed, into `picture`. The report counts the rays
-    /// whose segments found no place, which are listed in `overflown`: nothing is drawn of them. Does not wait.
+    /// Draws the pixels of the batch's tiles, which are culled and listed, into `picture`. Rays without room for all
+    /// their segments are not drawn: the report counts them, and `overflown` lists them. Does not wait.
     TimedKernels launch(const SceneTables& scene, BatchBuffers& batch, const Buffer& picture, std::uint32_t rays);
 
-    /// Which of the native device's programs suits a scene (cmake/native_kernels.cmake).
+    /// The native device's program for a scene (cmake/native_kernels.cmake).
     static const char* native_program(const CompiledScene& scene);
 
     CullPass& cull() { return cull_; }

@@ -25,7 +25,8 @@ std::uint64_t argument(T* memory) {
 std::uint64_t argument(std::uint32_t value) { return value; }
 constexpr const void* none = nullptr;
 
-/// Sums of the counts before each; `counts` has a place behind for that of all, which is returned.
+/// Replaces each count by the sum of the counts before it. `counts` has one more entry, for the sum of all, which is
+/// returned.
 kernel::RayCount scan(std::span<kernel::RayCount> counts) {
     std::uint64_t segments = 0, words = 0;
     const auto limited = [](std::uint64_t x) {
@@ -42,7 +43,7 @@ kernel::RayCount scan(std::span<kernel::RayCount> counts) {
 
 }  // namespace
 
-/// A thread's.
+/// The memory of one thread.
 struct NativeTracer::Scratch {
     std::vector<kernel::RayCount> places, offsets;
     std::vector<kernel::Candidate> candidates;
@@ -60,14 +61,14 @@ struct NativeTracer::Scratch {
         static thread_local Scratch scratch;
         return scratch;
     }
-    /// What one batch of many needed is not kept for all that come.
+    /// Frees memory that only one batch of many needed.
     void trim() {
         constexpr std::size_t most = std::size_t{1} << 16;
         if (ends.size() > 8 * most || candidates.size() > 8 * most) *this = {};
     }
 };
 
-/// One batch on its way.
+/// One batch on its way through the kernels.
 struct NativeTracer::Run {
     const kernel::Frame& frame;
     std::span<const kernel::RayRecord> rays;
@@ -193,8 +194,8 @@ void NativeTracer::trace(const kernel::Frame& frame, const RayList& rays, std::u
     while (first < end) {
         const std::span records = std::span(memory).first(std::min(size, end - first));
         rays.fill(first, records);
-        // First hits come in the order of the solids' boxes, before which a plate that a ray grazes may begin. Points
-        // have nothing in common that a packet could use.
+        // First hits come in the order of the solids' boxes, but a plate that a ray grazes may begin before its box. A
+        // packet gains nothing from points, which have nothing in common.
         const bool by_hits =
             frame.first_row && !frame.whole_lines && records.size() > 1 && records[0].t_near < records[0].t_far;
         if (!(by_hits && hit(frame, records, sink.fields(), stop, rows, counts)) &&
@@ -243,7 +244,7 @@ bool NativeTracer::hit(const kernel::Frame& list, std::span<const kernel::RayRec
     return true;
 }
 
-// One after the other, as DeepRayPass does it (src/pipeline/passes/deep_rays.hpp).
+// The steps run one after the other, as in DeepRayPass (src/pipeline/passes/deep_rays.hpp).
 void NativeTracer::trace_deep_rays(Run& run) const {
     Scratch& s = run.scratch;
     constexpr std::uint32_t field_in_end = 0, field_next = 2;  // of kernel::PartitionNode

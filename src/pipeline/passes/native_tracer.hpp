@@ -1,5 +1,5 @@
-// Lists of rays by the native device's kernels, without OpenCL: a batch is traced on the thread that asks, in memory of
-// the thread's own, which its caches hold. Several threads trace batches side by side.
+// Native tracer: traces lists of rays by the native device's kernels, without OpenCL. A batch is traced on the calling
+// thread, in the thread's own memory, which its caches hold. Several threads trace batches side by side.
 #pragma once
 
 #include <atomic>
@@ -17,27 +17,27 @@ namespace csgrt {
 
 class NativeTracer {
 public:
-    /// The level must have the programs "partitions" and "first_hits". The scene must outlive this. `budget`: bytes
-    /// that a batch may take.
+    /// Refers to the level's programs "partitions" and "first_hits", and to the scene, which must outlive the tracer.
+    /// `budget`: bytes that a batch may take.
     NativeTracer(const native::Level& level, const CompiledScene& scene, std::uint64_t budget);
 
-    /// How many rays go through the kernels together at most: their segments stay in a processor's cache.
+    /// The most rays that go through the kernels together: their segments stay in a processor's cache.
     static constexpr std::uint32_t batch_rays = 512;
 
-    /// The rows of a batch; `frame` is a list's. Any thread. False: it does not fit the budget. Throws Error
-    /// (interrupted) when `stop`, which may be null, becomes true.
+    /// Writes the rows of a batch; `frame` is a list's. Any thread. False: the batch does not fit the budget. Throws
+    /// Error (interrupted) when `stop`, which may be null, becomes true.
     bool trace(const kernel::Frame& frame, std::span<const kernel::RayRecord> rays, Fields fields,
                const std::atomic<bool>* stop, RowMemory& rows, PipelineCounts& counts) const;
 
-    /// Puts the rows of rays [first, end) of a list, a batch after the other. Any thread. Throws Error (out_of_memory,
-    /// interrupted).
+    /// Puts the rows of rays [first, end) of a list into the sink, one batch after the other. Any thread. Throws Error
+    /// (out_of_memory, interrupted).
     void trace(const kernel::Frame& frame, const RayList& rays, std::uint64_t first, std::uint64_t end,
                const std::atomic<bool>* stop, RowTaker& sink, PipelineCounts& counts) const;
 
 private:
     struct Scratch;
     struct Run;
-    /// The first row of each ray. False: a ray has more segments at a time than the kernel has room for.
+    /// Writes the first row of each ray. False: a ray has more segments at a time than the kernel has room for.
     bool hit(const kernel::Frame& frame, std::span<const kernel::RayRecord> rays, Fields fields,
              const std::atomic<bool>* stop, RowMemory& rows, PipelineCounts& counts) const;
     void trace_deep_rays(Run& run) const;

@@ -1,4 +1,4 @@
-// What the five kernels hand on for a batch's rays, on the device.
+// Partition memory: the buffers through which the five kernels hand on their results for a batch's rays, on the device.
 //
 //   kernel             1 count      | 2 store segments | 3 weave | 4 evaluate | 5 shade, host
 //   candidate places   w r            r
@@ -19,7 +19,7 @@
 
 namespace csgrt {
 
-/// What rays need, or what the buffers have room for.
+/// The sizes that rays need, or that the buffers have room for.
 struct PartitionSizes {
     std::uint32_t candidates = 0;
     kernel::RayCount total{};  ///< segments, and words of partitions' bits
@@ -34,28 +34,28 @@ class PartitionMemory {
 public:
     PartitionMemory(Device& device, const HostKernels& kernels);
 
-    Buffer& candidate_places() { return ray_counts_; }  ///< kernel::CandidateCount, one a ray and one behind
+    Buffer& candidate_places() { return ray_counts_; }  ///< kernel::CandidateCount, one a ray and one more
     Buffer& ray_tallies() { return ray_counts_; }       ///< kernel::RayTally, one a ray
-    Buffer& offsets() { return offsets_; }              ///< kernel::RayCount, one a ray and one behind
+    Buffer& offsets() { return offsets_; }              ///< kernel::RayCount, one a ray and one more
     Buffer& candidates() { return candidates_; }        ///< kernel::Candidate
     Buffer& found() { return found_; }                  ///< two kernel::End a candidate
     Buffer& partitions() { return found_; }             ///< two kernel::PartitionNode a segment
     Buffer& ends() { return ends_; }                    ///< two kernel::End a segment
-    Buffer& bits() { return bits_; }                    ///< words; 2 a segment at least
+    Buffer& bits() { return bits_; }                    ///< words; at least 2 a segment
     Buffer& tally_sums() { return tally_sums_; }        ///< kernel::RayTally, one a scan block
 
-    /// Bytes of a ray whatever it hits.
+    /// Bytes of each ray, whatever it hits.
     static constexpr std::uint64_t ray_bytes = 2 * sizeof(kernel::RayCount) + sizeof(kernel::RayTally);
 
-    /// Each makes room and returns true, or returns false if there is not enough device memory. Buffers only grow,
-    /// unless they would not fit.
+    /// Each of these makes room and returns true, or returns false if there is not enough device memory. Buffers only
+    /// grow, unless they would not fit.
     bool reserve_rays(std::uint32_t rays);
     bool reserve_candidates(std::uint32_t candidates);
     bool reserve_segments(const kernel::RayCount& total);
-    /// After kernel 2, once it is queued: the memory of what it found becomes that of partitions.
+    /// Makes room for partitions, when kernel 2 is queued: they take the memory of its input.
     void reserve_partitions(std::uint32_t segments) { found_.reserve(partition_bytes(segments)); }
 
-    /// Bytes that reserve_partitions() will take.
+    /// The bytes that reserve_partitions() will take.
     std::uint64_t to_reserve(std::uint32_t segments) const {
         return partition_bytes(segments) > found_.size() ? partition_bytes(segments) : 0;
     }
@@ -64,7 +64,7 @@ public:
     PartitionSizes capacity() const;
     std::uint64_t held() const;
     void release();          ///< gives all memory back
-    void release_counted();  ///< only what depends on what rays hit
+    void release_counted();  ///< gives back only the memory that depends on what rays hit
 
 private:
     static std::uint64_t partition_bytes(std::uint32_t segments) {
@@ -77,7 +77,7 @@ private:
     Buffer ray_counts_, offsets_, candidates_, found_, ends_, bits_, tally_sums_;
 };
 
-/// Entries that one group of kernels/scan.cl sums.
+/// The entries that one group of kernels/scan.cl sums.
 inline constexpr std::uint32_t scan_block = 1024;
 constexpr std::uint32_t scan_blocks_of(std::uint32_t entries) { return (entries + scan_block - 1) / scan_block; }
 

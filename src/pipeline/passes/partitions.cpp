@@ -21,7 +21,7 @@ std::vector<std::string> files_of(bool packets, bool rays_in_faces) {
     return files;
 }
 
-// Another evaluation takes all rays: none is deep. Bit arrays of more segments have more words than can be counted.
+// Another evaluation takes all rays, so none is deep: bit arrays of more segments have more words than can be counted.
 std::vector<std::string> options_for(const Device& device, const CompiledScene& scene, const Settings& settings) {
     std::vector<std::string> options = program_options(device, ProgramNeeds(scene), settings);
     if (laboratory(settings).evaluation) options.push_back("DEEP_SEGMENTS=0x3ffffu");
@@ -74,14 +74,14 @@ void PartitionPass::set_scene(const CompiledScene& scene, const HostKernels& ker
     average_ = average_before_ = {};
 }
 
-// The first step of a scan: the entries become sums within their block, and each block's sum is written.
+// The first step of a scan makes the entries sums within their block, and writes each block's sum.
 void PartitionPass::sum_blocks(const Buffer& entries, std::uint32_t size, Buffer& sums, TimedKernels& timed) {
     sums.reserve(scan_blocks_of(size) * sizeof(kernel::RayCount));
     timed.emplace_back(&PipelineCounts::scan, scan_blocks_.launch(std::size_t{scan_blocks_of(size)} * work_group,
                                                                   work_group, entries, sums, cl_uint{size}));
 }
 
-// Exclusive prefix sums over rays + 1 entries. The last entry need not be set: it is part of no sum.
+// A scan makes exclusive prefix sums of rays + 1 entries. The last entry need not be set: it is part of no sum.
 void PartitionPass::scan(const Buffer& counts, std::uint32_t rays, TimedKernels& timed) {
     const cl_uint entries = rays + 1, blocks = scan_blocks_of(entries);
     sum_blocks(counts, entries, scan_sums_buffer_, timed);
@@ -93,8 +93,8 @@ void PartitionPass::scan(const Buffer& counts, std::uint32_t rays, TimedKernels&
     device_.flush();
 }
 
-// NVIDIA's GPUs make copies to the host one after another: one that is queued behind kernels would hold up the copies
-// of other queues, too. So the copy is queued only when the kernels are done.
+// The copy is queued only when the kernels are done: NVIDIA's GPUs make copies to the host one after another, and a
+// copy that is queued behind kernels would hold up the copies of other queues, too.
 kernel::RayCount PartitionPass::read_total(const Buffer& counts, std::uint32_t rays, const TimedKernels& timed) {
     wait_for(timed.back().second);
     read_total_.start(counts, sizeof(kernel::RayCount), rays * sizeof(kernel::RayCount));
@@ -104,8 +104,8 @@ kernel::RayCount PartitionPass::read_total(const Buffer& counts, std::uint32_t r
 
 std::optional<PartitionSizes> PartitionPass::trace_counted(const Input& input, TimedKernels& timed) {
     if (auto sizes = try_counted(input, timed)) return sizes;
-    for (const auto& [time, kernel] : timed) wait_for(kernel);  // throws if a fault, and not the memory, is the reason
-    memory_.release_counted();                                  // a smaller batch needs it
+    for (const auto& [time, kernel] : timed) wait_for(kernel);  // throws if the reason is a fault, not the memory
+    memory_.release_counted();                                  // a smaller batch needs the memory
     deep_rays_.release();
     return {};
 }
@@ -119,7 +119,7 @@ std::optional<PartitionSizes> PartitionPass::try_counted(const Input& input, Tim
     if (!memory_.reserve_candidates(sizes.candidates)) return {};
     count_segments(input, sizes.candidates, timed);
     sizes.total = read_total(memory_.offsets(), input.rays, timed);
-    // Or much else, and the list of deep rays will be empty.
+    // The flag may also be set by very many words; then the list of deep rays will be empty.
     has_deep_rays_ = !other_evaluation_ && sizes.total.words >= DEEP_WORDS;
     if (has_deep_rays_) {
         sum_segments(input, 0, timed);
@@ -136,12 +136,12 @@ std::optional<PartitionSizes> PartitionPass::try_counted(const Input& input, Tim
 
 std::optional<PartitionSizes> PartitionPass::capacity_for(std::uint32_t rays) const {
     if (!memory_.holds_rays(rays) || has_deep_rays_) return {};
-    // The larger of two: a picture may well have two batches that differ.
+    // The larger of both averages counts: a picture may well have two batches that differ.
     const auto expected = [&](double Average::*what) {
         return static_cast<std::uint64_t>(std::max(average_.*what, average_before_.*what) * rays);
     };
     const PartitionSizes capacity = memory_.capacity();
-    // Earlier rays say little about these: half of what they would need may do.
+    // The averages of earlier rays say little about these rays, so half of the expected size may suffice.
     if (capacity.candidates == 0 || capacity.total.segments == 0 ||
         expected(&Average::candidates) / 2 > capacity.candidates ||
         expected(&Average::segments) / 2 > capacity.total.segments ||
@@ -157,7 +157,7 @@ void PartitionPass::trace_queued(const Input& input, const PartitionSizes& capac
     device_.flush();
 }
 
-// Kernel 1, first step: how many candidates each ray has, and so where they stand.
+// Kernel 1, first step: counts each ray's candidates, which gives their positions.
 void PartitionPass::place_candidates(const Input& input, TimedKernels& timed) {
     const BatchBuffers& batch = input.batch;
     const Buffer& tile_nodes = input.work == Work::tiles ? batch.tile_nodes : no_buffer_;
@@ -172,7 +172,8 @@ void PartitionPass::place_candidates(const Input& input, TimedKernels& timed) {
     scan(places, input.rays, timed);
 }
 
-// Kernel 1, the rest: the candidates, and how many segments each has. `candidates`: as many work-items.
+// Kernel 1, the other steps: lists the candidates, and counts each one's segments. `candidates`: the number of
+// work-items.
 void PartitionPass::count_segments(const Input& input, std::uint32_t candidates, TimedKernels& timed) {
     const BatchBuffers& batch = input.batch;
     const Buffer& tile_nodes = input.work == Work::tiles ? batch.tile_nodes : no_buffer_;
@@ -203,7 +204,7 @@ void PartitionPass::sum_segments(const Input& input, std::uint32_t deep_words, T
     scan(memory_.offsets(), input.rays, timed);
 }
 
-// Kernels 2 to 4. `candidates`, `segments`: as many work-items, or twice as many where an item is an end.
+// Kernels 2 to 4. `candidates`, `segments`: the numbers of work-items; kernels over boundaries have twice as many.
 void PartitionPass::make_partitions(const Input& input, std::uint32_t candidates, std::uint32_t segments,
                                     TimedKernels& timed) {
     const BatchBuffers& batch = input.batch;
@@ -268,7 +269,7 @@ void PartitionPass::shade(const Input& input, const Buffer& picture, TimedKernel
                       memory_.ray_tallies(), input.batch.report, picture));
 }
 
-// Only the blocks' sums come to the host, not every ray's tally.
+// The host reads only the blocks' sums, not every ray's tally.
 void PartitionPass::sum_tallies(std::uint32_t rays, TimedKernels& timed) {
     sum_blocks(memory_.ray_tallies(), rays, memory_.tally_sums(), timed);
     tally_count_ = scan_blocks_of(rays);

@@ -1,11 +1,12 @@
-// Every partition of a batch's rays, in five kernels:
+// Partition pass: every partition of a batch's rays, in five kernels:
 //
 //   1 count segments -> 2 store segments -> 3 weave -> 4 evaluate -> 5 shade
 //
-// Either the host reads what the rays need between the kernels and allocates exactly that (trace_counted), or all
-// kernels are queued at once into the buffers at hand (trace_queued). In the second case the kernels write nothing if
-// the rays need more than the capacity that their frame states, or if one of them is deep; the batch's report says what
-// they need. Deep rays take kernels of their own in place of 3 and 4 (deep_rays.hpp), when their number is known.
+// There are two ways to run them. Either the host reads between the kernels how much memory the rays need and allocates
+// exactly that (trace_counted). Or all kernels are queued at once into the buffers at hand (trace_queued). Then the
+// kernels write nothing if the rays need more than the capacity that their frame states, or if a ray is deep; the
+// batch's report says how much they need. Deep rays take kernels of their own in place of 3 and 4 (deep_rays.hpp), when
+// their number is known.
 #pragma once
 
 #include <functional>
@@ -25,7 +26,7 @@ namespace csgrt {
 
 class PartitionPass {
 public:
-    /// What the kernels are run for. The batch's frame and lists are uploaded.
+    /// The input of the kernels. The batch's frame and lists are uploaded already.
     struct Input {
         const SceneTables& scene;
         const BatchBuffers& batch;
@@ -36,44 +37,45 @@ public:
     /// Compiles its kernels. Throws Error (device_fault).
     PartitionPass(Device& device, const CompiledScene& scene, const HostKernels& kernels, const Settings& settings);
 
-    /// From now on rays meet another scene, which the pass's programs draw (see draws()). Both must outlive this.
+    /// Takes another scene, which the pass's programs can draw (see draws()). Both arguments must outlive the pass.
     void set_scene(const CompiledScene& scene, const HostKernels& kernels);
 
-    /// Kernels 1 to 4. The frame's capacities are COUNT_MAX. Waits for the counts only. Returns what the rays need;
-    /// nothing if that does not fit the memory: then the caller takes a smaller batch.
+    /// Runs kernels 1 to 4. The frame's capacities are COUNT_MAX. Waits for the counts only. Returns the sizes that the
+    /// rays need; nothing if these do not fit the memory: then the caller takes a smaller batch.
     std::optional<PartitionSizes> trace_counted(const Input& input, TimedKernels& timed);
-    /// The capacity of the buffers at hand; nothing if it would hardly do for so many rays, as far as earlier rays
-    /// tell.
+    /// The capacity of the buffers at hand; nothing if it would probably be too small for so many rays, by the average
+    /// of earlier rays.
     std::optional<PartitionSizes> capacity_for(std::uint32_t rays) const;
-    /// Kernels 1 to 4 in the buffers at hand. The frame's capacities are `capacity`. Does not wait.
+    /// Queues kernels 1 to 4 into the buffers at hand. The frame's capacities are `capacity`. Does not wait.
     void trace_queued(const Input& input, const PartitionSizes& capacity, TimedKernels& timed);
 
-    /// Kernel 5: the pixels of the rays that were traced last. Does not wait.
+    /// Queues kernel 5: the pixels of the rays that were traced last. Does not wait.
     void shade(const Input& input, const Buffer& picture, TimedKernels& timed);
-    /// Sums the tallies of the rays that were traced last. Does not wait.
+    /// Queues the sum of the tallies of the rays that were traced last. Does not wait.
     void sum_tallies(std::uint32_t rays, TimedKernels& timed);
-    /// Queues the copy of these sums to the host, once their kernels are done and before the next sum_tallies().
+    /// Queues the copy of the sums to the host, once their kernels are done and before the next sum_tallies().
     void copy_tallies() { read_.copy(); }
     /// Adds the copied sums up. Waits for the copy.
     void add_tallies(PipelineCounts& counts);
-    /// Nobody will ask for the sums.
+    /// Drops the copied sums.
     void cancel_tallies() noexcept { read_.cancel(); }
-    /// Adds what rays needed to the counts, and remembers it for capacity_for().
+    /// Adds the sizes to the counts, and remembers them for capacity_for().
     void add_sizes(const PartitionSizes& needed, std::uint32_t rays, PipelineCounts& counts);
 
-    /// Queues the records of a grid's rays, which the batch's frame has (put_grid). Returns the kernel's event.
+    /// Queues the kernel that makes the rays of a grid, which the batch's frame has (put_grid). Returns the kernel's
+    /// event.
     Event make_rays(const BatchBuffers& batch, std::uint32_t rays, RayRange range);
-    /// Kernel 6: the rows of the listed rays that the last trace_counted() has traced; `first`: the first one's number.
-    /// Waits for their number only. False: there is not enough memory.
+    /// Runs kernel 6: the rows of the listed rays that the last trace_counted() has traced; `first`: the first ray's
+    /// number. Waits for their number only. False: there is not enough memory.
     bool write_rows(const Input& input, std::uint64_t first, Fields fields, TimedKernels& timed);
-    /// Starts to copy these rows to the host, once their kernels are done.
+    /// Starts to copy the rows to the host, once their kernels are done.
     void start_copy(std::uint32_t rays) {
         rows_.start_copy();
         if (!rows_.has_overlaps()) return;
         has_deep_rays_ ? rows_.append_overlaps(read(rays)) : rows_.read_overlaps();
     }
     RowPass& rows() { return rows_; }
-    /// What the last trace_counted() left of its rays. Waits.
+    /// Reads the results of the last trace_counted(). Waits.
     TracedBatch read(std::uint32_t rays);
 
     CullPass& cull() { return cull_; }
@@ -86,7 +88,7 @@ public:
     }
 
 private:
-    /// What a ray needs on average.
+    /// The sizes that a ray needs on average.
     struct Average {
         double candidates = 0, segments = 0, words = 0;
     };
@@ -99,7 +101,7 @@ private:
     void sum_blocks(const Buffer& entries, std::uint32_t size, Buffer& sums, TimedKernels& timed);
     void scan(const Buffer& counts, std::uint32_t rays, TimedKernels& timed);
     kernel::RayCount read_total(const Buffer& counts, std::uint32_t rays, const TimedKernels& timed);
-    /// Pixels that are listed one by one lie anywhere.
+    /// Whether the rays go in packets. Pixels that are listed one by one lie anywhere, so they do not.
     bool in_packets(const Input& input) const { return input.work != Work::pixels && packet_candidates_; }
     RowPass::Input rows_of(const Input& input, std::uint64_t first) {
         return {input.batch.frame,
@@ -133,16 +135,16 @@ private:
     RowPass rows_;
     Buffer no_buffer_;  ///< a null pointer
     Buffer scan_sums_buffer_;
-    bool has_deep_rays_ = false;        ///< perhaps, the same
-    Average average_, average_before_;  ///< of the last rays whose sizes are known, and of those before
+    bool has_deep_rays_ = false;        ///< perhaps: the same
+    Average average_, average_before_;  ///< of the last rays whose sizes are known, and of the rays before
     std::size_t tally_count_ = 0;       ///< of sums
     QueuedRead read_, read_total_;
 };
 
 /// A kernel in place of kernel 4, for the laboratory of methods (bench/methods). It takes deep rays, too.
 struct Evaluation {
-    std::string name, source;  ///< the source stands behind all kernels', and may use theirs
-    /// Queues it for the rays' `segments`.
+    std::string name, source;  ///< the source is appended to all kernels' sources, and may use them
+    /// Queues the kernel for the rays' `segments`.
     std::function<Event(Kernel&, const PartitionPass::Input&, PartitionMemory&, std::uint32_t segments)> launch;
 };
 

@@ -8,7 +8,7 @@
 namespace csgrt {
 namespace {
 
-/// Lights that are not plain points, that glow, or that are regions which no picture shows.
+/// Does the scene have lights with a direction or a beam, glow, or regions that no picture shows?
 bool has_shaped_lights(const CompiledScene& scene) {
     const auto is_shaped = [](const kernel::LightRecord& light) { return light.w == 0 || light.beam; };
     const auto glows = [](const kernel::MaterialRecord& material) { return material.glow != 0; };

@@ -1,4 +1,4 @@
-// How the pipeline's programs are compiled and launched.
+// Program options: how the pipeline's programs are compiled and launched.
 #pragma once
 
 #include <cstdint>
@@ -10,17 +10,18 @@
 
 namespace csgrt {
 
-/// Work-items of a group, for kernels whose items take about equally long.
+/// Work-items of a group, for kernels whose work-items take about equally long.
 inline constexpr std::size_t work_group = 64;
-/// The same for first hits and culling. A processor's thread takes whole groups: 64 items of which one takes long would
-/// keep it busy after all others have ended, and a loop over items keeps the private memory of each.
+/// Work-items of a group for first hits and culling, whose times differ. A processor's thread takes whole groups: 64
+/// work-items of which one takes long would keep it busy after all others have ended, and a loop over work-items keeps
+/// the private memory of each.
 std::size_t divergent_group(const Device& device);
 
 /// Do a picture's rays go side by side in a processor's vectors, `packet_rays` a work-item?
 bool traces_packets(const Device& device, const Settings& settings);
 inline constexpr std::uint32_t packet_rays = 8;  // PACKET of kernels/packet/packet.h
 
-/// What a scene asks of its programs. A program that has more gives the same bits.
+/// The features that a scene needs of its programs. A program with more features gives the same bits.
 struct ProgramNeeds {
     std::uint32_t solid_types;
     bool large_terms, shaped_lights;

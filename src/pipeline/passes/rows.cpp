@@ -145,7 +145,7 @@ void RowPass::append_overlaps(const TracedBatch& traced) {
     csgrt::append_overlaps(*scene_, pieces, {traced.offsets.data(), traced.ends.data(), traced.nodes.data()}, memory_);
 }
 
-/// A column in the host's numbers.
+/// A column, converted to the host's numbers.
 template <class T>
 const T* RowPass::column(std::size_t number, std::vector<T>& converted) const {
     if (!is_wanted(number, fields_)) return nullptr;

@@ -1,5 +1,5 @@
-// Kernel 6: the rows of a list's batch, which kernels 1 to 4 have traced. While they are copied to the host, the next
-// batch may be traced.
+// Row pass (kernel 6): the rows of a list's batch, which kernels 1 to 4 have traced. While they are copied to the host,
+// the next batch may be traced.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@ namespace csgrt {
 
 class RowPass {
 public:
-    /// `program`: with kernels/6_rows.cl. All must outlive this.
+    /// Takes the kernels of kernels/6_rows.cl from `program`. All arguments must outlive the pass.
     RowPass(Device& device, const Program& program, const CompiledScene& scene, const HostKernels& kernels);
 
     ~RowPass() { cancel(); }
@@ -26,46 +26,45 @@ public:
         kernels_ = &kernels;
     }
 
-    /// What the kernels read: of the batch that was traced last.
+    /// The buffers that the kernels read, of the batch that was traced last.
     struct Input {
         const Buffer &frame, &rays, &offsets, &ends, &nodes, &bits;
-        std::uint64_t first;  ///< the batch's first ray, of the list
+        std::uint64_t first;  ///< number of the batch's first ray in the list
         std::uint32_t count;
     };
-    /// Counts the rays' rows; the caller makes sums of them. Nothing: there is not enough memory.
+    /// Counts the rays' rows; the caller makes sums of them. Null: there is not enough memory.
     const Buffer* count(const Input& input, TimedKernels& timed);
-    /// Writes the rows, of which there are `total`. False: there is not enough memory.
+    /// Writes the rows, `total` of them. False: there is not enough memory.
     bool write(const Input& input, const kernel::RayCount& total, Fields fields, const SceneTables& scene,
                TimedKernels& timed);
-    /// Whether overlaps are wanted, and there are any: then their claimants are to be found. A kernel does it (both of
-    /// the next calls), or the host (append_overlaps), for it knows the partitions of deep rays.
+    /// Whether overlaps are wanted, and there are any: then their claimants have to be found, either by a kernel (both
+    /// of the next calls), or by the host (append_overlaps) if there are deep rays.
     bool has_overlaps() const { return fields_.overlaps && total_.words > 0; }
-    /// Counts claims; the caller makes sums of the counts, of as many entries as overlaps(). Nothing: there is not
-    /// enough memory.
+    /// Counts claims; the caller makes sums of the counts, overlaps() of them. Null: there is not enough memory.
     const Buffer* count_claimants(const Input& input, const SceneTables& scene, TimedKernels& timed);
     /// Lists the claimants. `claims`: the sum. False: there is not enough memory.
     bool list_claimants(const Input& input, std::uint32_t claims, const SceneTables& scene, TimedKernels& timed);
     /// Starts to copy the rows, once their kernels are done.
     void start_copy();
-    /// Reads overlaps and claimants, at once.
+    /// Reads overlaps and claimants, and waits for them.
     void read_overlaps();
-    /// The same where no kernel has listed the claimants.
+    /// Finds the claimants on the host, where no kernel has listed them.
     void append_overlaps(const TracedBatch& traced);
-    /// The rows whose copy was started last, which are there until the next copy. Waits.
+    /// The rows whose copy was started last; they stay until the next copy. Waits.
     RowView wait();
-    /// Nobody will ask for them.
+    /// Drops the rows.
     void cancel() noexcept;
-    /// A copy was started, and nobody has waited for it.
+    /// Whether a copy was started, and nobody has waited for it.
     bool is_underway() const { return is_underway_; }
 
-    /// Partitions that overlap, of the rows that were written last.
+    /// The number of partitions that overlap, of the rows that were written last.
     std::uint32_t overlaps() const { return total_.words; }
 
     std::uint64_t held() const;
     void release();
 
 private:
-    /// The arrays, by number, as RowView has them.
+    /// The arrays' numbers, in RowView's order.
     enum Column { regions, in, out, in_solids, out_solids, in_normals, out_normals };
     static constexpr std::size_t columns = 7;
     std::size_t row_bytes(std::size_t column) const;
@@ -80,7 +79,7 @@ private:
     Kernel count_rows_, write_rows_, describe_rows_, count_claimants_, list_claimants_;
     Buffer places_, bounds_, pieces_, claim_places_, claimants_, claimant_counts_;
     std::vector<Buffer> columns_;          ///< by Column
-    std::optional<PinnedMemory> staging_;  ///< of the places and the columns, one after the other
+    std::optional<PinnedMemory> staging_;  ///< of the positions and the columns, one after the other
     std::vector<Event> copies_;
     std::vector<std::size_t> places_in_staging_;
     kernel::RayCount total_{};

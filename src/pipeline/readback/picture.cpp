@@ -13,13 +13,13 @@ constexpr std::size_t pixels_a_thread = 1 << 17;  // fewer are copied sooner tha
 
 constexpr std::uint32_t not_drawn = UINT32_MAX;
 
-/// The first tile from `begin` on that is 1, or `end`.
+/// The first tile from `begin` on whose byte is 1, or `end`.
 std::size_t next_covered(std::span<const std::uint8_t> tiles, std::size_t begin, std::size_t end) {
     const void* const found = std::memchr(tiles.data() + begin, 1, end - begin);
     return found ? static_cast<std::size_t>(static_cast<const std::uint8_t*>(found) - tiles.data()) : end;
 }
 
-/// Where a batch's tiles are: numbers of tiles of the picture.
+/// A batch's tiles, as numbers of tiles of the picture.
 struct BatchTiles {
     BatchTiles(const kernel::Frame& frame, std::uint32_t first, std::uint32_t end)
         : BatchTiles(frame.screen, frame.width, first, end) {}
@@ -50,18 +50,19 @@ void fill(const ChannelMemory& channel, std::size_t width, const Rectangle& r) {
         std::fill_n(channel.pixels + y * width + r.left, r.columns(), channel.background);
 }
 
-/// `values`: of a tile.
+/// Writes a tile. `values`: the tile's pixels.
 void put_tile(const ChannelMemory& channel, std::size_t width, const Rectangle& r, const float* values) {
     for (std::size_t y = r.top; y < r.bottom; ++y, values += TILE) {
         float* const line = channel.pixels + y * width + r.left;
         if (r.columns() == TILE)
-            std::memcpy(line, values, TILE * sizeof(float));  // of a fixed size: no call
+            std::memcpy(line, values, TILE * sizeof(float));  // a fixed size needs no call
         else
             std::copy_n(values, r.columns(), line);
     }
 }
 
-/// Adds what follows beneath, to the last one if the pixels around both take less time than another copy.
+/// Adds a rectangle that lies beneath the others. It is joined to the last if the pixels around both take less time
+/// than another copy.
 void add(std::vector<Rectangle>& all, const Rectangle& next) {
     constexpr std::size_t copy_cost = 1 << 12;  // pixels: docs/experiments.md
     if (!all.empty()) {
@@ -114,7 +115,8 @@ std::vector<Rectangle> take_rectangles(const kernel::Frame& frame, std::uint32_t
         std::size_t right = tiles.columns, left = next_covered(needed, 0, right);
         if (left == right) continue;
         while (!needed[right - 1]) --right;
-        // Whole lines of the processor's cache: a GPU writes those a quarter sooner (docs/experiments.md).
+        // Rectangles begin at whole lines of the processor's cache: a GPU writes these a quarter sooner
+        // (docs/experiments.md).
         if (left > 0) left -= (tiles.left + left) % 2;
         if (right < tiles.columns) right += (tiles.left + right) % 2;
         add(found, tiles.pixels(row, left, right));

@@ -1,4 +1,4 @@
-// Pixels of batches -> the channels of an image.
+// Picture: writes the pixels of batches into the channels of an image.
 #pragma once
 
 #include <cstdint>
@@ -17,14 +17,14 @@ struct ChannelMemory {
     float background = 0;
 };
 
-/// What a frame is drawn into.
+/// The memory that a frame is drawn into.
 struct RenderTarget {
     std::span<const ChannelMemory> channels;
-    std::span<std::uint8_t> covered;  ///< of each tile of the picture: 0 if it holds nothing but background, else 1
-    const RegisteredMemory* registered = nullptr;  ///< the channels' memory, as far as devices copy into it
+    std::span<std::uint8_t> covered;               ///< one a tile of the picture: 0 if it is all background, else 1
+    const RegisteredMemory* registered = nullptr;  ///< the part of the channels' memory that devices copy into
 };
 
-/// Pixels of a picture: columns left ... right - 1, lines top ... bottom - 1.
+/// A rectangle of a picture's pixels: columns left ... right - 1, lines top ... bottom - 1.
 struct Rectangle {
     std::size_t left = 0, right = 0, top = 0, bottom = 0;
 
@@ -36,15 +36,15 @@ struct Rectangle {
 // A batch is the screen's tiles from number `first` to `end`: whole rows of tiles, or a part of one row.
 
 /// Writes the pixels of a batch. `drawn`: the tiles that were drawn, in any order; `values`: for each channel the
-/// floats of their rays, tile by tile. The others become background if they were covered.
+/// floats of the tiles' rays, tile by tile. The other tiles become background if they were covered.
 void put_tiles(const kernel::Frame& frame, std::uint32_t first, std::uint32_t end, std::span<const std::uint32_t> drawn,
                const float* values, const RenderTarget& target);
 
 /// Writes the background into the covered tiles outside of the frame's screen bounds.
 void clear_around(const kernel::Frame& frame, const RenderTarget& target);
 
-/// What a GPU copies of a batch: few rectangles that hold its tiles that show something and those that were covered
-/// before. From then on those are covered that show something. `shown`: of each tile 1 if it shows something, else 0.
+/// Returns the rectangles that a GPU copies of a batch: few rectangles that hold the tiles that show something and
+/// those that were covered before. `shown`: one a tile, 1 if it shows something, else 0. It replaces `covered`.
 std::vector<Rectangle> take_rectangles(const kernel::Frame& frame, std::uint32_t first, std::uint32_t end,
                                        std::span<const std::uint8_t> shown, const RenderTarget& target);
 

@@ -1,4 +1,5 @@
-// The memory of a picture that is drawn again and again, registered with GPUs, which then copy pixels straight into it.
+// Registered memory: a picture's memory that GPUs know and copy pixels straight into, for pictures that are drawn again
+// and again.
 #pragma once
 
 #include <algorithm>
@@ -11,13 +12,13 @@ namespace csgrt {
 
 class RegisteredMemory {
 public:
-    /// All channels of a picture, `bytes` from `data` on. The memory must outlive this.
+    /// Refers to all channels of a picture, `bytes` from `data` on. The memory must outlive the object.
     RegisteredMemory(void* data, std::size_t bytes) : data_(data), bytes_(bytes) {}
 
-    /// Registers the memory with a device, which takes a tenth of a second a gigabyte. A driver may refuse: then the
-    /// device's pixels come by staging memory.
+    /// Registers the memory with a device, which takes a tenth of a second a gigabyte. If the driver refuses, the
+    /// device's pixels go through staging memory.
     void add(const Device& device);
-    /// A device that does not answer may yet write there.
+    /// Whether a device that does not answer may still write there.
     bool has_lost() const {
         return std::ranges::any_of(registered_, [](const auto& entry) { return entry.second.is_lost(); });
     }
@@ -26,7 +27,8 @@ public:
 private:
     void* data_;
     std::size_t bytes_;
-    std::map<cl_context, HostRegistration> registered_;  ///< each keeps its context, so that no other gets its address
+    std::map<cl_context, HostRegistration> registered_;  ///< each keeps its context, so that no other context gets its
+                                                         ///< address
 };
 
 }  // namespace csgrt

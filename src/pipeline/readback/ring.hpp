@@ -1,7 +1,7 @@
-// Pixels of a GPU's batches on their way into the picture, while the GPU draws the next batches.
+// Readback ring: copies the pixels of a GPU's batches into the picture, while the GPU draws the next batches.
 //
-// A batch is drawn into a row-major picture on the device. Rectangles of it that show something, or did so before, are
-// copied into the target (device/copy_feed.hpp).
+// A batch is drawn into a row-major picture on the device. The rectangles of it that show something, or did so before,
+// are copied into the target (device/copy_feed.hpp).
 #pragma once
 
 #include <future>
@@ -19,39 +19,39 @@ public:
     /// The rows of a batch's picture on the device, channel by channel.
     struct DevicePicture {
         Buffer buffer;
-        std::shared_future<void> copied;  ///< valid while its pixels are on their way
+        std::shared_future<void> copied;  ///< valid while the pixels are copied
         bool is_in_use = false;           ///< by a batch that is not collected yet
-        std::uint64_t used = 0;           ///< when it was collected last, as a number of batches
+        std::uint64_t used = 0;           ///< time of the last collection, as a number of batches
     };
 
     explicit ReadbackRing(Device& device);
 
-    /// Memory for a batch's picture, until collect() or cancel(). Nothing if batches use all of it or the device has no
+    /// Memory for a batch's picture, until collect() or cancel(). Null if batches use all of it or the device has no
     /// more.
     DevicePicture* acquire(std::size_t bytes);
     static void cancel(DevicePicture& picture) noexcept { picture.is_in_use = false; }
-    /// Returns when the pixels that were in it are copied, so that kernels may write it. Throws what kept them from it.
+    /// Returns when the pixels that were in it are copied, so that kernels may write it. Throws if the copy failed.
     static void wait(DevicePicture& picture);
 
-    /// Queues the copies of the batch's pixels, which are drawn, into the target. `shown`: of each tile a byte, not 0
-    /// if it shows something. May return before the copies are made: the target must live until finish() or abandon().
+    /// Queues the copies of the batch's pixels, which are drawn, into the target. `shown`: one byte a tile, not 0 if it
+    /// shows something. May return before the copies are made: the target must live until finish() or abandon().
     void collect(const kernel::Frame& frame, const RayBatch& batch, std::span<const std::uint8_t> shown,
                  DevicePicture& picture, const RenderTarget& target);
-    /// Returns when all copies are made. Throws what kept one from being made.
+    /// Returns when all copies are made. Throws if one failed.
     void finish();
-    /// The same, but throws nothing, and no batch uses a picture any more.
+    /// Returns when all copies are made or have failed, without throwing. Then no batch uses a picture any more.
     void abandon() noexcept;
 
     std::uint64_t held() const;  ///< bytes on the device
-    /// Gives the device's memory back, but for `kept`, when all copies are made.
+    /// Gives the device's memory back, except `kept`, when all copies are made.
     void release(const DevicePicture* kept = nullptr);
 
 private:
-    static constexpr std::size_t depth = Device::queues + 1;  ///< batches that are drawn, and one that is copied
+    static constexpr std::size_t depth = Device::queues + 1;  ///< batches being drawn, and one being copied
     Device& device_;
     std::vector<DevicePicture> pictures_;
     std::uint64_t collected_ = 0;  ///< batches
-    CopyFeed copies_;              ///< is destroyed before the pictures
+    CopyFeed copies_;              ///< destroyed before the pictures
 };
 
 }  // namespace csgrt

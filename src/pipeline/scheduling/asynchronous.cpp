@@ -34,7 +34,7 @@ bool AsynchronousSchedule::reclaim() {
 
 void AsynchronousSchedule::abandon() noexcept {
     try {
-        passes_.device.finish();  // kernels that are queued write into pictures that a frame may take next
+        passes_.device.finish();  // queued kernels write into pictures that a frame may take next
     } catch (...) {
     }
     for (Batch& batch : batches_) batch.state = State::free;
@@ -51,8 +51,8 @@ AsynchronousSchedule::Batch* AsynchronousSchedule::with(State state) {
     return found == batches_.end() ? nullptr : &*found;
 }
 
-// Every partition: the kernels of all batches share buffers, so they are queued one after another, but for culling.
-// First hits: each batch has a queue of its own, so that the next one's kernels begin while the longest rays of the
+// Every partition: the kernels of all batches share buffers, so they are queued one after another, except for culling.
+// First hits: each batch has a queue of its own, so that the next batch's kernels begin while the longest rays of the
 // last are drawn.
 std::size_t AsynchronousSchedule::queue_of(const Batch& batch, bool every_partition) const {
     return every_partition ? 1 : static_cast<std::size_t>(&batch - batches_.data());
@@ -60,7 +60,7 @@ std::size_t AsynchronousSchedule::queue_of(const Batch& batch, bool every_partit
 
 void AsynchronousSchedule::render(const FrameJob& job) {
     if (std::exchange(drew_every_partition_, job.frame.every_partition != 0) != (job.frame.every_partition != 0)) {
-        reclaim();  // the memory holds what one of the two ways needs
+        reclaim();  // the memory holds the buffers of one mode only
         passes_.release();
     }
     is_memory_short_ = false;
@@ -81,11 +81,11 @@ void AsynchronousSchedule::render(const FrameJob& job) {
         }
     }
     if (overflown_.empty()) return;
-    ring_.finish();  // whole tiles come before single pixels of them
+    ring_.finish();  // whole tiles are written before single pixels of them
     pixels_.draw_pixels(job, std::exchange(overflown_, {}));
 }
 
-// The batch that goes on next: first what needs no wait, then the oldest. None: the frame is drawn.
+// The batch that goes on next: first one that needs no wait, then the oldest. None: the frame is drawn.
 AsynchronousSchedule::Batch* AsynchronousSchedule::next(const FrameJob& job) {
     Batch* const free = is_memory_short_ || job.source.is_empty() ? nullptr : with(State::free);
     if (job.frame.every_partition) {
@@ -110,7 +110,7 @@ AsynchronousSchedule::Batch* AsynchronousSchedule::next(const FrameJob& job) {
     return done == batches_.end() ? next(job) : &*done;
 }
 
-// Starts the source's next batch. False: the memory has no room for another one beside that underway.
+// Starts the source's next batch. False: the memory has no room for another batch beside the one underway.
 bool AsynchronousSchedule::start_next(Batch& batch, const FrameJob& job) {
     const bool is_alone = is_idle();
     const RayBatch rays = job.source.next();
@@ -131,7 +131,7 @@ bool AsynchronousSchedule::start_next(Batch& batch, const FrameJob& job) {
     return true;
 }
 
-// free -> culled, or of first hits -> shaded. False: it does not fit the memory.
+// The step free -> culled, or of first hits free -> shaded. False: the batch does not fit the memory.
 bool AsynchronousSchedule::start(Batch& batch, const FrameJob& job, const RayBatch& rays) {
     const bool every = job.frame.every_partition;
     batch.rays = rays;
@@ -191,14 +191,14 @@ void AsynchronousSchedule::write_background(Batch& batch, const FrameJob& job) {
         static_cast<std::uint32_t>(job.target.channels.size()), batch.picture->buffer));
 }
 
-// culled -> traced: kernels 1 to 4 are queued behind those of the batch before, if the buffers at hand will probably
-// do; else that one is collected first, and this one's memory is counted.
+// The step culled -> traced: kernels 1 to 4 are queued behind those of the batch before, if the buffers at hand will
+// probably suffice. Else the batch before is collected first, and this batch's memory is counted.
 void AsynchronousSchedule::trace(Batch& batch, const FrameJob& job) {
     wait_for(batch.culling.back());
     batch.report_read.copy();
     batch.frame.ray_count = batch.report().entries * tile_rays;
     Batch& before = *other(batch);
-    if (before.state == State::shaded && is_done(before.end())) {  // its pixels need not wait for anything
+    if (before.state == State::shaded && is_done(before.end())) {  // the pixels need not wait for anything
         collect(before, job);
         if (batch.state != State::culled) return;
     }
@@ -216,9 +216,9 @@ void AsynchronousSchedule::trace(Batch& batch, const FrameJob& job) {
     if (batch.state == State::culled) trace_alone(batch, job);
 }
 
-// traced -> shaded, when the batch before is collected.
+// The step traced -> shaded, when the batch before is collected.
 void AsynchronousSchedule::shade(Batch& batch, const FrameJob& job) {
-    if (!acquire_picture(batch, job)) {  // the host waits for memory: so what is queued is not waited for again
+    if (!acquire_picture(batch, job)) {  // the host waits for memory, so queued work is not waited for again
         passes_.device.finish();
         batch.state = State::culled;
         trace_alone(batch, job);
@@ -235,7 +235,7 @@ void AsynchronousSchedule::shade(Batch& batch, const FrameJob& job) {
     batch.state = State::shaded;
 }
 
-// shaded -> free, or again traced if the capacity did not do.
+// The step shaded -> free, or again traced if the capacity was too small.
 void AsynchronousSchedule::collect(Batch& batch, const FrameJob& job) {
     is_memory_short_ = false;
     job.frame.every_partition ? collect_partitions(batch, job) : collect_first_hits(batch, job);
@@ -245,7 +245,7 @@ void AsynchronousSchedule::collect_first_hits(Batch& batch, const FrameJob& job)
     wait_for(batch.end());
     batch.report_read.copy();
     add_times(batch.drawing, job.counts);
-    // By the copy queue: a read that is queued behind kernels would hold up all copies.
+    // The read goes through the copy queue: a read that is queued behind kernels would hold up all copies.
     const std::vector<std::uint32_t> numbers =
         batch.buffers.overflown.read_beside<std::uint32_t>(batch.report().overflows);
     overflown_.insert(overflown_.end(), numbers.begin(), numbers.end());
@@ -268,7 +268,7 @@ void AsynchronousSchedule::collect_partitions(Batch& batch, const FrameJob& job)
     read_pixels(batch, job);
 }
 
-// Nothing was written: the rays need more than the buffers at hand hold. The other batch goes back, and this one is
+// Nothing was written: the rays need more than the buffers at hand hold. The other batch is given back, and this one is
 // traced again in memory that is counted.
 void AsynchronousSchedule::retry(Batch& batch, const FrameJob& job) {
     passes_.device.finish();
@@ -282,8 +282,8 @@ void AsynchronousSchedule::retry(Batch& batch, const FrameJob& job) {
     trace_alone(batch, job);
 }
 
-// culled -> traced, in memory that is counted, while no other batch is underway; or -> free, and the source has the
-// batch in halves.
+// The step culled -> traced, in memory that is counted, while no other batch is underway; or -> free, and the source
+// gets the batch back in halves.
 void AsynchronousSchedule::trace_alone(Batch& batch, const FrameJob& job) {
     if (!try_alone(batch, job)) {  // memory that is kept for later is taken before a smaller batch
         for (Batch& one : batches_)
@@ -307,7 +307,7 @@ bool AsynchronousSchedule::try_alone(Batch& batch, const FrameJob& job) {
     return passes_.partitions().trace_counted(input_of(batch), batch.drawing).has_value();
 }
 
-// The batch is drawn: its pixels are copied, and it is free.
+// The batch is drawn: its pixels are copied, and it becomes free.
 void AsynchronousSchedule::read_pixels(Batch& batch, const FrameJob& job) {
     batch.state = State::free;
     for (const Event& event : batch.culling) add_time(&PipelineCounts::cull_tiles, event, job.counts);

@@ -1,5 +1,6 @@
-// A GPU's batches, two underway: while one's kernels run, the other's are queued, and pixels of those before are
-// copied. A device stands still whenever the host waits for an answer before it says what comes next.
+// Asynchronous schedule, for GPUs: two batches are underway. While one's kernels run, the other's are queued, and
+// pixels of earlier batches are copied. Otherwise the device would be idle whenever the host waits for an answer before
+// it queues more.
 //
 // clang-format off
 //            start                 trace              shade             collect
@@ -8,7 +9,8 @@
 //                       tile list           1 to 4                                  (readback/ring.hpp)
 // clang-format on
 //
-// A batch of first hits goes from free to shaded at once: none of its kernels needs to know what the one before found.
+// A batch of first hits goes from free to shaded at once: none of its kernels needs the host to read an earlier one's
+// result.
 #pragma once
 
 #include <array>
@@ -24,14 +26,14 @@ namespace csgrt {
 
 class AsynchronousSchedule {
 public:
-    /// `pixels` traces what comes as single pixels.
+    /// Draws whole tiles by `passes`; `pixels` traces single pixels.
     AsynchronousSchedule(DevicePasses& passes, SynchronousSchedule& pixels);
 
-    /// Compiles what every frame needs.
+    /// Compiles the kernels that every frame needs.
     void prepare() { passes_.tile_list(); }
-    /// Draws all that the job's source gives. Some pixels may come into the target until finish().
+    /// Draws all rays that the job's source gives. Some pixels may come into the target until finish().
     void render(const FrameJob& job);
-    /// Returns when all pixels are in the target. Throws what kept one from it.
+    /// Returns when all pixels are in the target. Throws if a copy failed.
     void finish() { ring_.finish(); }
     /// Returns when nothing more comes into the target, whatever was underway.
     void abandon() noexcept;
@@ -48,13 +50,13 @@ private:
 
         State state = State::free;
         RayBatch rays;
-        kernel::Frame frame{};  ///< of the batch's rays; from tracing on of those of its tiles that see anything
+        kernel::Frame frame{};  ///< of the batch's rays; from tracing on, of the rays of its tiles that see anything
         BatchBuffers buffers;
         ReadbackRing::DevicePicture* picture = nullptr;
         QueuedUpload frame_upload;
         QueuedRead report_read;
         std::vector<Event> culling;  ///< kernel 0, the list's kernels, the background
-        TimedKernels drawing;        ///< kernels 1 to 5, or the one of first hits
+        TimedKernels drawing;        ///< kernels 1 to 5, or that of first hits
         PartitionSizes capacity;     ///< of the buffers that kernels 1 to 4 were queued into
 
         const Event& end() const { return drawing.empty() ? culling.back() : drawing.back().second; }
@@ -93,7 +95,7 @@ private:
     SynchronousSchedule& pixels_;
     std::array<Batch, Device::queues> batches_;
     ReadbackRing ring_;
-    std::vector<std::uint32_t> overflown_;  ///< first hits: rays that are to be traced as single pixels
+    std::vector<std::uint32_t> overflown_;  ///< first hits: rays that have to be traced as single pixels
     bool drew_every_partition_ = false;     ///< in the last frame
     bool is_memory_short_ = false;          ///< no other batch starts until one is collected
 };

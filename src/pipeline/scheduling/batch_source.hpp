@@ -1,4 +1,4 @@
-// Ranges of a frame's rays, or of a list's, as they are taken -> batches of them, one after another.
+// Batch source: makes batches, one after another, of the ranges of a frame's or a list's rays.
 #pragma once
 
 #include <cstdint>
@@ -12,23 +12,24 @@
 
 namespace csgrt {
 
-/// The next rays; empty: there are none left.
+/// Returns the next rays; empty: there are none left.
 using TakeRays = std::function<RayNumbers()>;
 
 class BatchSource {
 public:
-    /// `most`: rays of a batch, asked for when a range is taken. `row`: of a row of the screen's tiles, so that a batch
-    /// is whole rows, or a part of one; 0: the rays are a list's.
+    /// Makes a source. `most`: the most rays of a batch, read when a range is taken. `row`: the rays of a row of the
+    /// screen's tiles, so that a batch is whole rows, or a part of one; 0: the rays are a list's.
     BatchSource(TakeRays take, std::function<std::uint64_t()> most, std::uint64_t row)
         : take_(std::move(take)), most_(std::move(most)), row_(row) {}
 
     /// Takes the next range if nothing is left of the last one.
     bool is_empty();
-    /// Of no rays if there are none left. `most`: a further limit.
+    /// Returns the next batch, without rays if there are none left. `most`: a further limit.
     RayBatch next(std::uint64_t most = std::numeric_limits<std::uint64_t>::max());
-    /// The batch is to come again, before all others: the last one first, if there are several.
+    /// Gives a batch back: it will come again before all others. Of several the last comes first.
     void give_back(const RayBatch& batch) { left_.push_back({batch.first, std::uint64_t{batch.first} + batch.rays}); }
-    /// The same in smaller batches. Throws Error (out_of_memory), which tells of `budget`, if it is of one ray.
+    /// Gives a batch back in two halves. Throws Error (out_of_memory) with `budget` in its message if the batch has one
+    /// ray.
     void halve(const RayBatch& batch, std::uint64_t budget);
 
 private:

@@ -1,5 +1,5 @@
-// One or several devices. Each has the scene and a pipeline of its own, and takes the next part of a frame, or of a
-// list of rays, when it is done with the last. Nothing that a ray computes depends on its device.
+// Device group: one or several devices. Each has the scene and a pipeline of its own, and takes the next part of a
+// frame, or of a list of rays, when it is done with the last. No result of a ray depends on its device.
 #pragma once
 
 #include <functional>
@@ -16,33 +16,36 @@ namespace csgrt {
 
 class DeviceGroup {
 public:
-    /// On these devices; `settings.device` has no part in it. The scene and the kernels must outlive this.
+    /// Makes pipelines on these devices; `settings.device` is not read. The scene and the kernels must outlive the
+    /// group.
     DeviceGroup(const std::vector<FoundDevice>& devices, const CompiledScene& scene, const HostKernels& kernels,
                 const Settings& settings, Readback readback = Readback::by_device);
 
-    /// No two in a process have the same, which is not 0.
+    /// A number that no other group of the process has, not 0.
     std::uint64_t number() const noexcept { return number_; }
 
-    /// From now on another scene is drawn. `owner`: keeps it and its kernels.
+    /// Takes another scene for the next calls. `owner`: keeps it and its kernels alive.
     void set_scene(const CompiledScene& scene, const HostKernels& kernels, std::shared_ptr<const void> owner);
-    /// With the kernels that are compiled.
+    /// Whether the compiled kernels can draw the scene.
     bool can_draw(const CompiledScene& scene) const;
-    /// As set_scene() was given it, or keep(); null: neither was called.
+    /// The owner of the last set_scene() or keep(); null: neither was called.
     const std::shared_ptr<const void>& owner() const { return owner_; }
     void keep(std::shared_ptr<const void> owner) { owner_ = std::move(owner); }
     void prepare(bool every_partition);
     /// Registers the memory of a picture that will be drawn into again with those GPUs that have room for it: `pixels`
-    /// floats of each channel, one channel after the other. It must outlive what is returned; this group need not.
+    /// floats of each channel, one channel after the other. The memory must outlive the result; the group need not.
     std::shared_ptr<RegisteredMemory> register_memory(std::span<const ChannelMemory> channels, std::size_t pixels);
-    /// As Pipeline's. Throws Error (interrupted), too, if `watch`, which may be null, says so.
+    /// Draws a frame, as Pipeline::render does. Throws Error (interrupted), too, if `watch`, which may be null, says
+    /// so.
     void render(const PreparedFrame& prepared, const RenderTarget& target, Watch* watch, PipelineCounts& counts);
     void trace_list(const kernel::Frame& frame, const RayList& rays, RowTaker& sink, Watch* watch,
                     PipelineCounts& counts);
 
     bool uses_driver() const;            ///< some device is not native
     std::string name() const;            ///< "A", or "A + B"
-    std::uint64_t device_bytes() const;  ///< of all devices: in buffers, and what drivers hold of registered memory
-    double build_ms() const;  ///< to set up the devices, and of the one that took longest to compile its kernels
+    std::uint64_t device_bytes() const;  ///< of all devices: in buffers, and as much as drivers hold for registered
+                                         ///< memory
+    double build_ms() const;  ///< to set up the devices, and to compile the kernels of the device that took longest
 
 private:
     using Work = std::function<void(Pipeline&, const TakeRays&, const Told&, PipelineCounts&)>;
@@ -53,7 +56,7 @@ private:
     void start_call();
     void drop_claims();
 
-    /// What a driver holds of registered memory counts as the device's as long as it is registered.
+    /// A claim on a device's memory: a driver holds as much as is registered, as long as it is registered.
     struct Claim {
         std::weak_ptr<const RegisteredMemory> registered;
         Device* device;

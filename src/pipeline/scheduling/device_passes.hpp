@@ -1,4 +1,4 @@
-// One device with the scene on it, and the passes that its batches go through.
+// Device passes: one device with the scene on it, and the passes that its batches go through.
 #pragma once
 
 #include <functional>
@@ -14,10 +14,10 @@
 
 namespace csgrt {
 
-/// Is told how many more rays are done. What it throws ends the work.
+/// Called with the number of rays that were done. An exception of it ends the work.
 using Told = std::function<void(std::uint64_t rays)>;
 
-/// What the batches of a frame have in common.
+/// The data that all batches of a frame share.
 struct FrameJob {
     const kernel::Frame& frame;
     BatchSource& source;
@@ -26,7 +26,7 @@ struct FrameJob {
     PipelineCounts& counts;
 
     FrameShape shape() const { return shape_of(frame, target.channels.size()); }
-    /// A batch is done.
+    /// Reports that a batch is done.
     void tell(const RayBatch& batch) const {
         ++counts.batches;
         counts.done.push_back(batch);
@@ -34,16 +34,16 @@ struct FrameJob {
     }
 };
 
-/// Passes are compiled when they are first used. All that is given must outlive this.
+/// Holds the passes, which are compiled at their first use. All arguments must outlive it.
 class DevicePasses {
 public:
     DevicePasses(Device& device, const CompiledScene& scene, const HostKernels& kernels, const Settings& settings);
 
-    /// From now on another scene is drawn. Passes whose programs cannot draw it go; so do buffers that hold the last
+    /// Takes another scene. Passes whose programs cannot draw it are dropped, and so are buffers that hold the last
     /// scene. Throws Error (out_of_memory, device_fault).
     void set_scene(const CompiledScene& scene, const HostKernels& kernels);
 
-    /// With the programs that are compiled.
+    /// Whether the compiled programs can draw the scene.
     bool can_draw(const CompiledScene& scene) const { return draws(device, needs_, ProgramNeeds(scene)); }
 
     Device& device;

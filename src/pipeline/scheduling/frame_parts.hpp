@@ -1,4 +1,4 @@
-// A frame's rays, or a list's -> parts of them, one after another for each device that is ready.
+// Frame parts: shares of a frame's or a list's rays, one after another for each device that is ready.
 #pragma once
 
 #include <algorithm>
@@ -6,19 +6,19 @@
 
 namespace csgrt {
 
-/// Of a picture's rays, or of a list's.
+/// A range of numbers of a picture's rays, or of a list's.
 struct RayNumbers {
     std::uint64_t first = 0, end = 0;
 };
 
 class Parts {
 public:
-    /// Parts of `least` to `most` rays, in units of `unit`, which is a row of a picture's tiles. Near the end they
-    /// become smaller, so that little is left for one device, or for the bus, when all else is done.
+    /// Makes parts of `least` to `most` rays, in units of `unit`, which is a row of a picture's tiles. Near the end the
+    /// parts become smaller, so that little is left for one device, or for the bus, when all other work is done.
     Parts(std::uint64_t rays, std::uint64_t unit, std::uint64_t devices, std::uint64_t least, std::uint64_t most)
         : rays_(rays), unit_(unit), devices_(devices), least_(least), most_(most) {}
 
-    /// The next one. Empty if there is none.
+    /// Returns the next part. Empty if there is none.
     RayNumbers take() {
         const std::uint64_t first = next_, left = rays_ - first;
         const std::uint64_t size = std::clamp(left / devices_ / 2, least_, most_);

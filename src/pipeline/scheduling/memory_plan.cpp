@@ -15,7 +15,7 @@ FrameShape shape_of(const kernel::Frame& frame, std::size_t channels) {
 }
 
 std::uint64_t rays_fitting(const DeviceMemory& memory, std::uint64_t ray_bytes) {
-    constexpr std::uint64_t most = 1u << 24;  // a launch of more would take long enough for a watchdog
+    constexpr std::uint64_t most = 1u << 24;  // a larger launch could take so long that a watchdog ends it
     const std::uint64_t bytes = std::min((memory.available + memory.held) / 4, memory.max_buffer);
     return std::clamp<std::uint64_t>(bytes / ray_bytes, 1, most);
 }

@@ -1,4 +1,5 @@
-// How many rays go into a batch, and how much device memory it takes. Numbers alone: no device, no buffers.
+// Memory plan: how many rays go into a batch, and how much device memory it takes. It computes with numbers alone: no
+// device, no buffers.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +8,7 @@
 
 namespace csgrt {
 
-/// What of a frame decides about memory.
+/// The properties of a frame that decide about memory.
 struct FrameShape {
     std::uint32_t tiles_across = 0, tiles_down = 0;  ///< of the screen bounds
     std::uint64_t pixel_bytes = 0;                   ///< of all channels of a pixel
@@ -22,20 +23,20 @@ struct DeviceMemory {
 };
 
 struct MemoryPlan {
-    std::uint64_t ray_bytes = 0;   ///< of a ray, whatever it hits, with all batches that are underway at a time
+    std::uint64_t ray_bytes = 0;   ///< of each ray, whatever it hits, with all batches that are underway at a time
     std::uint64_t batch_rays = 1;  ///< at most; less than a tile if the memory holds no more
 };
 
-/// `underway`: batches that have memory at a time. `most_rays`: of a batch. A quarter of the memory is for what is
-/// known beforehand; the rest is for segments and partitions.
+/// Plans the memory. `underway`: batches that have memory at a time. `most_rays`: of a batch. A quarter of the memory
+/// is for sizes known beforehand; the rest is for segments and partitions.
 MemoryPlan plan_memory(const FrameShape& frame, const DeviceMemory& memory, std::uint32_t underway,
                        std::uint64_t most_rays);
 
-/// Rays that the same quarter holds, of `ray_bytes` each.
+/// The number of rays of `ray_bytes` each that this quarter holds.
 std::uint64_t rays_fitting(const DeviceMemory& memory, std::uint64_t ray_bytes);
 
-/// Bytes of a batch of whole tiles, but for its picture and its partitions: its frame (`frame_bytes`), costs, lists and
-/// report.
+/// The bytes of a batch of whole tiles without its picture and its partitions: its frame (`frame_bytes`), costs, lists
+/// and report.
 std::uint64_t batch_bytes(const FrameShape& frame, const RayBatch& batch, std::uint64_t frame_bytes);
 
 }  // namespace csgrt

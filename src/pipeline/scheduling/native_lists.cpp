@@ -10,7 +10,7 @@ namespace csgrt {
 
 void NativeLists::trace(const kernel::Frame& frame, const RayList& list, const RayNumbers& range, RowTaker& sink,
                         const Told& told, PipelineCounts& counts) const {
-    // Of a short list each thread has several batches, all of them whole packets.
+    // A short list is divided so that each thread has several batches, all of them whole packets.
     const std::size_t rays = range.end - range.first, share = rays / (8 * thread_count(0)) / 8 * 8,
                       most = std::clamp<std::size_t>(share, 8, NativeTracer::batch_rays);
     const auto start = Clock::now();

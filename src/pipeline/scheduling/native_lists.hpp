@@ -1,4 +1,4 @@
-// A list of rays, batch by batch, by all threads and the native device's kernels.
+// Native lists: traces a list of rays, batch by batch, on all threads with the native device's kernels.
 #pragma once
 
 #include "compile/lists/ray_list.hpp"
@@ -11,11 +11,11 @@ namespace csgrt {
 
 class NativeLists {
 public:
-    /// All must outlive this.
+    /// Refers to its arguments, which must outlive it.
     NativeLists(const native::Level& level, const CompiledScene& scene, const Device& device)
         : device_(device), tracer_(level, scene, device.budget()) {}
 
-    /// Puts the rows of a range of the list.
+    /// Puts the rows of a range of the list into the sink.
     void trace(const kernel::Frame& frame, const RayList& list, const RayNumbers& range, RowTaker& sink,
                const Told& told, PipelineCounts& counts) const;
 

@@ -14,7 +14,7 @@ Pipeline::Pipeline(Device& device, const CompiledScene& scene, const HostKernels
           passes_, [this] { return memory(); }, [this] { return asynchronous_ && asynchronous_->reclaim(); }) {
     if (settings.precision == Precision::double_) native_level_ = native::level_of(device.cl().table, device.id());
     if (native_level_) native_.emplace(*native_level_, scene, device);
-    // A processor shares the host's memory, and has no time beside its kernels.
+    // A processor shares the host's memory, and its kernels leave no time for other work.
     if (readback == Readback::asynchronous || !is_processor()) asynchronous_.emplace(passes_, synchronous_);
 }
 

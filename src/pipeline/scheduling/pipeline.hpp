@@ -1,5 +1,5 @@
-// One device: CompiledScene + Frame -> a picture or partitions. Rays go through in batches. Nothing that a ray computes
-// depends on its batch.
+// Pipeline: one device makes a picture or rows of a CompiledScene and a Frame. Rays go through it in batches. No result
+// of a ray depends on its batch.
 #pragma once
 
 #include <optional>
@@ -9,41 +9,43 @@
 
 namespace csgrt {
 
-/// Whether batches are drawn one at a time or two: as suits the device, or two on any.
+/// How many batches are underway: one or two, by the device's kind, or two on any device.
 enum class Readback { by_device, asynchronous };
 
 class Pipeline {
 public:
-    /// Of a picture's batch: the pixels of one are copied while the next is drawn.
+    /// The most rays of a picture's batch: the pixels of one batch are copied while the next is drawn.
     static constexpr std::uint64_t most_rays_drawn = 1u << 22;
-    /// Of a processor's batch, of a picture or of a list: it takes some 16 to 64 MiB then (docs/performance.md).
+    /// The most rays of a processor's batch, of a picture or of a list: the batch takes some 16 to 64 MiB
+    /// (docs/performance.md).
     static constexpr std::uint64_t most_rays_on_processor(bool every_partition) {
         return every_partition ? 1u << 17 : 1u << 20;
     }
 
-    /// Of a list's batch on a GPU: the rows of one are copied while the next is traced.
+    /// The most rays of a list's batch on a GPU: the rows of one batch are copied while the next is traced.
     static constexpr std::uint64_t most_rays_listed = 1u << 18;
 
-    /// Uploads the scene. Kernels are compiled when they are first wanted. `kernels` are the host's in the same
+    /// Uploads the scene. Kernels are compiled when they are first needed. `kernels` are the host's in the same
     /// precision. `most_rays`: of a picture's batch. All three objects must outlive the pipeline.
     Pipeline(Device& device, const CompiledScene& scene, const HostKernels& kernels, const Settings& settings,
              Readback readback = Readback::by_device, std::uint64_t most_rays = most_rays_drawn);
 
-    /// From now on another scene is drawn and traced; both must outlive the pipeline. Programs that can draw it stay,
-    /// and buffers. Throws Error (out_of_memory, device_fault).
+    /// Takes another scene for the next calls; both arguments must outlive the pipeline. Programs that can draw it
+    /// stay, and buffers. Throws Error (out_of_memory, device_fault).
     void set_scene(const CompiledScene& scene, const HostKernels& kernels);
     bool can_draw(const CompiledScene& scene) const { return passes_.can_draw(scene); }
-    /// Compiles the kernels of such frames, if that was not done.
+    /// Compiles the kernels of such frames, if they are not compiled yet.
     void prepare(bool every_partition);
-    /// Draws the frame's rays, so far as `take` gives them; each range begins with a tile. Some pixels may come into
-    /// the target until finish(). Throws Error (out_of_memory, device_fault).
+    /// Draws the frame's rays that `take` gives; each range begins with a tile. Some pixels may come into the target
+    /// until finish(). Throws Error (out_of_memory, device_fault).
     void render(const PreparedFrame& prepared, const TakeRays& take, const RenderTarget& target, const Told& told,
                 PipelineCounts& counts);
-    /// Returns when the target holds all that was drawn. Throws what kept it from that.
+    /// Returns when the target holds everything that was drawn. Throws if a copy failed.
     void finish();
     /// Returns when nothing more comes into the target.
     void abandon() noexcept;
-    /// Puts the rows of each ray that `take` gives. The native device's own kernels are called without OpenCL.
+    /// Puts the rows of each ray that `take` gives into the sink. The native device's own kernels are called without
+    /// OpenCL.
     void trace_list(const kernel::Frame& frame, const RayList& rays, const TakeRays& take, RowTaker& sink,
                     const Told& told, PipelineCounts& counts);
 

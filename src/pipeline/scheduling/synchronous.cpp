@@ -12,8 +12,8 @@
 
 namespace csgrt {
 
-/// Gives each batch of the source to `work`; one that does not fit the memory (false) comes again in halves. A driver's
-/// kernels do not end when a call is to: there batches are so small that it can end between two.
+/// Gives each batch of the source to `work`; a batch that does not fit the memory (false) comes again in halves. A
+/// driver's running kernels cannot be ended, so its batches are so small that a call can end between two.
 template <class Work>
 void SynchronousSchedule::for_each_batch(BatchSource& source, const Work& work) {
     const Device& device = passes_.device;
@@ -37,7 +37,7 @@ SynchronousSchedule::SynchronousSchedule(DevicePasses& passes, std::function<Dev
       batch_(passes.device),
       picture_(passes.device, "picture") {}
 
-// `reused`: bytes of it that this holds already.
+// Makes room for `bytes`. `reused`: bytes of them that the schedule holds already.
 void SynchronousSchedule::make_room(std::uint64_t bytes, std::uint64_t reused) {
     if (bytes <= passes_.device.available() + reused) return;
     batch_.release_lists();
@@ -86,7 +86,7 @@ void SynchronousSchedule::render(const FrameJob& job) {
     });
 }
 
-// False: the batch does not fit the memory.
+// Draws a batch. False: it does not fit the memory.
 bool SynchronousSchedule::draw_tiles(const FrameJob& job, const RayBatch& batch) {
     kernel::Frame frame = job.frame;
     frame.first_ray = batch.first;
@@ -161,7 +161,7 @@ void SynchronousSchedule::draw_part_of_tile(const FrameJob& job, const RayBatch&
     draw_pixels(job, numbers);
 }
 
-// The batch's frame is uploaded.
+// Uploads the rays of a batch, whose frame is uploaded already.
 void SynchronousSchedule::upload_rays(const RayList& rays, const RayBatch& batch) {
     const std::size_t bytes = passes_.kernels().ray_bytes();
     wait_until_done(rays_upload_);  // of a call that threw
@@ -187,7 +187,7 @@ void SynchronousSchedule::upload_rays(const RayList& rays, const RayBatch& batch
     rays_upload_ = batch_.rays.queue_upload(staged, batch.rays * bytes);
 }
 
-// While a batch's rows are copied, the next one is traced.
+// While a batch's rows are copied, the next batch is traced.
 void SynchronousSchedule::trace_list(const kernel::Frame& list, const RayList& rays, BatchSource& source,
                                      RowTaker& sink, const Told& told, PipelineCounts& counts) {
     PartitionPass& pass = passes_.partitions();

@@ -1,6 +1,6 @@
-// One batch at a time: the host reads which of its tiles see anything, has kernels run for these alone, and reads their
-// pixels. So processors draw, which share the host's memory. On every device, so single pixels and lists of rays are
-// traced.
+// Synchronous schedule: one batch at a time. The host reads which tiles of the batch see anything, runs kernels for
+// these alone, and reads their pixels. Processors, which share the host's memory, draw pictures this way. All devices
+// trace single pixels and lists of rays this way.
 #pragma once
 
 #include <algorithm>
@@ -14,11 +14,11 @@
 
 namespace csgrt {
 
-/// How many rays a batch has that takes some 10 ms, as far as the last ones tell.
+/// The size of batches: as many rays as take some 10 ms, by the time of the last batches.
 class Pace {
 public:
     std::uint64_t rays() const { return rays_; }
-    /// So many rays that see something, or of a list, took so long.
+    /// Adds a measurement: so many rays that see something, or of a list, took so long.
     void add(std::uint64_t rays, double ms) {
         if (rays == 0) return;
         ms_a_ray_ = std::max(ms / static_cast<double>(rays), 0.9 * ms_a_ray_);
@@ -26,22 +26,22 @@ public:
     }
 
 private:
-    double ms_a_ray_ = 0;  ///< of the costliest batch, which is forgotten by and by
+    double ms_a_ray_ = 0;  ///< of the costliest batch, which is gradually forgotten
     std::uint64_t rays_ = 1 << 13;
 };
 
 class SynchronousSchedule {
 public:
-    /// `memory`: the device's, with all that the pipeline holds of it. `reclaim` gives back what others hold for later;
-    /// false: they held none.
+    /// Refers to the passes. `memory`: the device's, with everything that the pipeline holds of it. `reclaim` gives
+    /// back memory that others hold for later; false: they held none.
     SynchronousSchedule(DevicePasses& passes, std::function<DeviceMemory()> memory, std::function<bool()> reclaim);
 
     void render(const FrameJob& job);
-    /// Every partition of single pixels, by their rays' numbers, and what is seen of them.
+    /// Draws single pixels, by their rays' numbers, with every partition.
     void draw_pixels(const FrameJob& job, std::span<const std::uint32_t> numbers);
     /// The pixels of a batch that is less than a tile.
     void draw_part_of_tile(const FrameJob& job, const RayBatch& batch);
-    /// Puts the rows of the rays that `source` gives, by number.
+    /// Puts the rows of the rays that `source` gives, by number, into the sink.
     void trace_list(const kernel::Frame& frame, const RayList& rays, BatchSource& source, RowTaker& sink,
                     const Told& told, PipelineCounts& counts);
 
@@ -63,7 +63,7 @@ private:
     void upload(const kernel::Frame& frame) {
         frame_upload_.start<std::byte>(batch_.frame, passes_.kernels().frame(frame));
     }
-    /// Makes the frame one of the rays that are listed, uploads both and makes room for their pixels.
+    /// Sets the frame's work to the listed rays, uploads both and makes room for their pixels.
     void start_work(kernel::Frame& frame, Work work, std::span<const std::uint32_t> numbers, std::uint64_t pixel_bytes,
                     std::uint64_t ray_bytes);
 
@@ -71,7 +71,7 @@ private:
     std::function<DeviceMemory()> memory_;
     std::function<bool()> reclaim_;
     BatchBuffers batch_;
-    Buffer picture_;  ///< of each channel a float a ray
+    Buffer picture_;  ///< a float a ray for each channel
     QueuedUpload frame_upload_, list_upload_;
     std::optional<PinnedMemory> staged_rays_;
     Event rays_upload_;
