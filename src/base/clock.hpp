@@ -1,4 +1,4 @@
-// How long something took, by the wall's clock.
+// Clock: measures durations in real time.
 #pragma once
 
 #include <chrono>

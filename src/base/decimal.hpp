@@ -1,5 +1,5 @@
-// Decimal numbers, read alike wherever they stand: in a scene of any format, in a file of rays, on the command line.
-// The value is the nearest double: what is too small for one is 0, of its sign, and what is too large is refused.
+// Decimal numbers, read the same way everywhere: in a scene of any format, in a file of rays, on the command line. The
+// value is the nearest double. A number too small for a double is 0, of its sign; a number too large is refused.
 #pragma once
 
 #include <algorithm>
@@ -14,8 +14,8 @@ namespace csgrt {
 
 enum class Decimal { number, no_number, not_finite, too_large };
 
-/// Whether a decimal that no double is near lies on the side of 0. Its first digit other than 0 tells, with the
-/// exponent.
+/// Whether a decimal out of the range of double is too small, not too large. Its first digit other than 0 and the
+/// exponent decide.
 inline bool is_below_doubles(std::string_view digits) {
     if (digits.starts_with('-')) digits.remove_prefix(1);
     const std::size_t letter = std::min(digits.find_first_of("eE"), digits.size());
@@ -34,7 +34,7 @@ inline bool is_below_doubles(std::string_view digits) {
     return point - first + exponent < 0;
 }
 
-/// The whole of `text`; a leading plus is fine.
+/// Reads the whole of `text`; a leading plus is allowed.
 inline Decimal read_decimal(std::string_view text, double& value) {
     if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
     const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -47,13 +47,13 @@ inline Decimal read_decimal(std::string_view text, double& value) {
     return std::isfinite(value) ? Decimal::number : Decimal::not_finite;
 }
 
-/// The number that the whole of `text` is; nothing if it is none, or none that is finite.
+/// The number that the whole of `text` is; nothing if it is not a finite number.
 inline std::optional<double> finite_decimal(std::string_view text) {
     double value = 0;
     return read_decimal(text, value) == Decimal::number ? std::optional(value) : std::nullopt;
 }
 
-/// What is wrong with a number, in the words of every reader.
+/// The fault of a number, in the same words for every reader.
 inline std::string decimal_fault(Decimal found, const std::string& text) {
     if (found == Decimal::too_large) return "the number " + text + " is too large for a double";
     return "'" + text + (found == Decimal::not_finite ? "' is not a finite number" : "' is not a number");

@@ -1,4 +1,4 @@
-// From the colours of pictures to the bytes of a display.
+// Display bytes: converts the colours of pictures to a display's bytes.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace csgrt {
 
 inline constexpr int last_byte = 255;
 
-/// From linear light to the nearest byte of sRGB. The bounds between bytes are decoded once, so nothing is encoded.
+/// Converts linear light to the nearest byte of sRGB. The bounds between bytes are decoded once, so nothing is encoded.
 class SrgbBytes {
 public:
     SrgbBytes() {
@@ -33,14 +33,14 @@ public:
     }
 
 private:
-    static constexpr int cells = 4096;        // so many that few bounds lie in one
-    std::array<double, last_byte + 1> ends_;  // of each byte: the light with which the next begins; the last is over 1
-    std::array<unsigned char, cells> first_;  // of equal parts of 0 to 1: the byte at the lower end
+    static constexpr int cells = 4096;        // so many that few bounds lie in one cell
+    std::array<double, last_byte + 1> ends_;  // one a byte: the light at which the next byte begins; the last is over 1
+    std::array<unsigned char, cells> first_;  // one for each equal part of 0 to 1: the byte at its lower bound
 };
 
-/// The nearest byte to a display value, or to linear light, which is encoded as sRGB; of no number, 0.
+/// The nearest byte to a display value, or to linear light, which is encoded as sRGB; 0 if the value is not a number.
 inline unsigned char display_byte(double value, bool is_display_value) {
-    static const auto* const of_light = new SrgbBytes;  // for ever: threads use it while the process ends
+    static const auto* const of_light = new SrgbBytes;  // never destroyed: threads use it while the process ends
     if (!is_display_value) return (*of_light)(value);
     return static_cast<unsigned char>(value > 0 ? std::min(value, 1.0) * last_byte + 0.5 : 0);
 }

@@ -1,6 +1,6 @@
-// How a thread's processor computes: how it rounds, where it traps, whether it takes tiny numbers for 0. csgrt's bits
-// hang on it, and it belongs to the host: each public function that computes sets what csgrt needs, and gives the
-// host's back. All in the header, as new_file.hpp is.
+// Floating-point state: how a thread's processor rounds, where it traps, whether it takes tiny numbers for 0. csgrt's
+// bits depend on it, but it belongs to the host. So each public function that computes sets the state that csgrt needs,
+// and restores the host's. All in the header, as in new_file.hpp.
 #pragma once
 
 #include <cfenv>
@@ -9,8 +9,8 @@
 
 namespace csgrt {
 
-/// While it lives, its thread computes as IEEE 754 has it by default: to nearest, without traps. Then it computes as
-/// before, and nothing tells of what happened meanwhile.
+/// Sets the default of IEEE 754 for its thread while it lives: to nearest, without traps. Then it restores the former
+/// state, and flags that were raised meanwhile are gone.
 class FloatingPoint {
 public:
     FloatingPoint() noexcept : FloatingPoint(FE_DFL_ENV) {}
@@ -18,7 +18,8 @@ public:
     FloatingPoint& operator=(const FloatingPoint&) = delete;
     ~FloatingPoint() { std::fesetenv(&before_); }
 
-    /// The host's function, which computes as the host did before this; on whatever thread. Both must outlive it.
+    /// Wraps a function of the host, so that it runs with the host's former state, on any thread. Both the object and
+    /// the function must outlive the result.
     template <class Result, class... Arguments>
     std::function<Result(Arguments...)> of_host(const std::function<Result(Arguments...)>& function) const {
         if (!function) return {};

@@ -1,4 +1,4 @@
-// One number for many bytes.
+// FNV-1a: a hash, one number for many bytes.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +12,8 @@
 
 namespace csgrt {
 
-/// FNV-1a by words of 8 bytes, with the high bits of each product brought down: they would never reach the low ones.
+/// FNV-1a by words of 8 bytes. The high bits of each product are folded into the low ones, which they would never
+/// affect otherwise.
 class Fnv1a {
 public:
     template <class T>
@@ -48,7 +49,7 @@ private:
     std::uint64_t state_ = 14695981039346656037u;
 };
 
-/// Such a number as text: 16 digits.
+/// A hash as text: 16 digits.
 inline std::string hexadecimal(std::uint64_t number) {
     char digits[17];
     std::snprintf(digits, sizeof digits, "%016llx", static_cast<unsigned long long>(number));

@@ -1,4 +1,4 @@
-// Numbers and answers for one ray, bit by bit. All in the header, as new_file.hpp is.
+// Identity bit by bit, of numbers and of answers for one ray. All in the header, as in new_file.hpp.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +16,7 @@ bool same_bits(const Numbers& a, const Numbers& b) {
     return std::memcmp(&a, &b, sizeof a) == 0;
 }
 
-/// To the last bit, overlaps included.
+/// Whether two answers are the same to the last bit, overlaps included.
 inline bool identical(const RayPartitions& a, const RayPartitions& b) {
     const auto same_partition = [](const Partition& p, const Partition& q) {
         return same_bits(p.in, q.in) && same_bits(p.out, q.out) && same_bits(p.in_normal, q.in_normal) &&
@@ -31,7 +31,7 @@ inline bool identical(const RayPartitions& a, const RayPartitions& b) {
            std::equal(a.overlaps.begin(), a.overlaps.end(), b.overlaps.begin(), b.overlaps.end(), same_overlap);
 }
 
-/// The rows of ray i of `a` and of ray k of `b`, to the last bit, in all arrays that `a` has.
+/// Whether the rows of ray i of `a` are those of ray k of `b`, to the last bit, in all arrays that `a` has.
 inline bool same_rows(const Partitions& a, std::size_t i, const Partitions& b, std::size_t k) {
     const auto same = [](const auto& splits_a, std::size_t ia, const auto& splits_b, std::size_t ib,
                          const auto& values_a, const auto& values_b) {

@@ -1,5 +1,5 @@
-// Methods that are kept to be measured against the default ones. Benchmarks and tests alone ask for them, by
-// Settings::laboratory: they need an OpenCL device or the reference, which has no contraction.
+// Laboratory: methods that are kept for measurements beside the default ones. Only benchmarks and tests choose them, by
+// Settings::laboratory. They need an OpenCL device or the reference, which has no contraction.
 #pragma once
 
 #include <memory>
@@ -10,10 +10,10 @@
 
 namespace csgrt {
 
-/// How quartic equations are solved: those of tor, eto and cones with two tapers.
+/// Methods for quartic equations, those of tor, eto and cones with two tapers.
 enum class Quartic {
     bracketed,            ///< origin at the ray's point closest to the solid; roots lie between the derivative's
-    bracketed_unshifted,  ///< the same with the ray's own origin
+    bracketed_unshifted,  ///< the same, with the ray's own origin
     ferrari,              ///< closed form
     yuksel,               ///< brackets and Newton's method to a stated error (Yuksel 2022)
 };
@@ -27,7 +27,7 @@ inline constexpr std::pair<std::string_view, Quartic> quartic_names[] = {
 struct Laboratory {
     Quartic quartic = Quartic::bracketed;
     bool contraction = false;   ///< the device's compiler may round a product and a sum as one (fma)
-    bool single_world = false;  ///< Precision::single in the model's coordinates, all of it
+    bool single_world = false;  ///< Precision::single in the model's coordinates, without the world in double
     const struct Evaluation* evaluation = nullptr;  ///< in place of kernel 4 (pipeline/passes/partitions.hpp)
 };
 

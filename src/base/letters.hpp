@@ -1,4 +1,4 @@
-// Small and capital letters, whatever the host's locale takes for one.
+// Letters: small and capital, whatever the host's locale is.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// Why a library was not loaded, by the words of dlerror().
+// Load faults: the reasons why a library was not loaded, from the words of dlerror().
 #pragma once
 
 #include <algorithm>
@@ -7,7 +7,7 @@
 
 namespace csgrt {
 
-/// Whether memory had ended.
+/// Whether memory ran out.
 inline bool lacked_memory(std::string_view why) {
     constexpr std::array<std::string_view, 4> words = {"annot allocate", "failed to map segment",
                                                        "cannot create shared object descriptor", "out of memory"};

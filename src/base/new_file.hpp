@@ -1,5 +1,5 @@
-// A file that is written whole or not at all, wherever its name leads. All in the header: the library, the component
-// for pictures and the command share it, and show each other nothing behind their interfaces.
+// New file: a file that is written whole or not at all, wherever its name leads. All in the header: the library, the
+// component for pictures and the command share it, and none of them sees more of another than its interface.
 #pragma once
 
 #include <algorithm>
@@ -25,7 +25,7 @@
 
 namespace csgrt {
 
-/// How open files are opened: not for processes that this one starts, and, under Windows, without changing line ends.
+/// Flags of open files: processes that this one starts do not inherit them, and Windows does not change line ends.
 #ifdef _WIN32
 inline constexpr int open_flags = _O_NOINHERIT | _O_BINARY;
 inline int duplicate(int file) { return _dup(file); }
@@ -34,12 +34,13 @@ inline constexpr int open_flags = O_CLOEXEC;
 inline int duplicate(int file) { return fcntl(file, F_DUPFD_CLOEXEC, 3); }
 #endif
 
-/// Where a name leads over links: the file that is written, so that a link stays a link.
+/// The target of a name, over links: the file that is written, so that a link stays a link.
 struct Target {
     std::filesystem::path path;
-    /// A device, a pipe or an open file (/dev/stdout, /dev/fd/3): nothing can be renamed onto it.
+    /// Whether the target is a device, a pipe or an open file (/dev/stdout, /dev/fd/3): nothing can be renamed onto
+    /// these.
     bool direct = false;
-    int descriptor = -1;   ///< the open file, if it is one of this process
+    int descriptor = -1;   ///< the open file, if the target is one of this process
     bool endless = false;  ///< the links lead in a circle
 };
 
@@ -71,12 +72,14 @@ inline Target target_of(const std::string& name) {
     return target;
 }
 
-/// Stands beside its place under another name until keep(), and is removed if that never comes: whoever looks finds the
-/// old file or the new one, whole. What nothing can be renamed onto is written directly. Throws Error (file).
-/// It is locked while it is written, so that the next one for the same place knows what a process left that was killed.
+/// Writes a file under another name beside its target until keep(), and removes it if keep() is never called: readers
+/// find the old file or the new one, whole. A target that nothing can be renamed onto is written directly. The file is
+/// locked while it is written, so that a later writer of the same target knows what a killed process left. Throws Error
+/// (file).
 class NewFile {
 public:
-    /// `on_signal` is called where a signal ends a wait, and may throw; then the wait goes on.
+    /// Creates the file. `on_signal` is called when a signal ends a wait, and may throw; if it does not, the wait goes
+    /// on.
     explicit NewFile(const std::string& name, void (*on_signal)() = nullptr) : NewFile(on_signal, name) {
         if (name.find('\0') != name.npos) refuse(name.c_str(), "cannot create", "the name of a file has no NUL");
         Target target = target_of(name);
@@ -102,13 +105,13 @@ public:
             if (file_ < 0 && errno != EEXIST) fail("cannot create", errno);
             if (file_ < 0) continue;
             if (!lock())
-                close(std::exchange(file_, -1));  // another one took it for a dead process's
+                close(std::exchange(file_, -1));  // another process took it for a dead process's
             else
                 temporary_ = std::move(temporary);
         }
-        constexpr int most = 8;  // that wrote the same at once
+        constexpr int most = 8;  // writers of the same target at once
         for (; number < most; ++number) remove_if_left(beside(target.path, number));
-        // As an editor would leave it.
+        // The permissions stay, as if an editor had written the file.
         if (replaces) fs::permissions(temporary_, old.permissions() & fs::perms::all, error);
     }
     NewFile(const NewFile&) = delete;
@@ -130,9 +133,9 @@ public:
         temporary_.clear();
     }
 
-    /// All of it to an open file that is called `name`.
+    /// Writes all bytes to an open file with the name `name`.
     static void write_to(int file, std::string_view bytes, const std::string& name, void (*on_signal)() = nullptr) {
-        constexpr std::size_t most = std::size_t{1} << 30;  // at once: Windows counts bytes in an int
+        constexpr std::size_t most = std::size_t{1} << 30;  // in one call: Windows counts bytes in an int
         while (!bytes.empty()) {
             const auto written = ::write(file, bytes.data(), static_cast<unsigned>(std::min(bytes.size(), most)));
             if (written >= 0) {
@@ -146,7 +149,7 @@ public:
     }
 
 private:
-    /// Where the other constructor throws, the destructor tidies up.
+    /// The delegated constructor: when the other one throws, the destructor tidies up.
     NewFile(void (*on_signal)(), const std::string& name) : name_(name), on_signal_(on_signal) {}
 
     static std::string words(int code) { return code == EBADF ? "it is closed" : std::strerror(code); }
@@ -155,7 +158,8 @@ private:
     }
     [[noreturn]] void fail(const char* what, int code) const { refuse(name_, what, words(code)); }
 
-    /// The numbers are for those that write the same at once. No longer than a folder bears.
+    /// A name beside the target. The numbers are for processes that write the same target at once. The name is no
+    /// longer than folders allow.
     static std::string beside(const std::filesystem::path& target, int number) {
         constexpr std::size_t longest = 200;
         const std::string name = target.filename().string().substr(0, longest) + "." + std::to_string(number) + ".part";
@@ -166,12 +170,13 @@ private:
     bool lock() { return true; }
     static void remove_if_left(const std::string&) {}
 #else
-    /// False if the file has been removed since it was made. Some file systems have no locks: there all files stay.
+    /// Locks the file. False if it has been removed since it was made. Some file systems have no locks: there left
+    /// files stay.
     bool lock() {
         struct stat status;
         if (flock(file_, LOCK_EX | LOCK_NB) != 0) return errno != EWOULDBLOCK;
         if (fstat(file_, &status) != 0 || status.st_nlink == 0) return false;
-        lock_ = duplicate(file_);  // holds it until the file has its name
+        lock_ = duplicate(file_);  // holds the lock until the file has its name
         return true;
     }
 
@@ -188,7 +193,7 @@ private:
     }
 #endif
 
-    std::string name_, target_, temporary_;  ///< no temporary: written directly
+    std::string name_, target_, temporary_;  ///< temporary_ is empty if the target is written directly
     void (*on_signal_)();
     int file_ = -1, lock_ = -1;
 };

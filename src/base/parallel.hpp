@@ -1,4 +1,4 @@
-// Work on the host's processors whose results do not depend on how many there are.
+// Parallel work on the host's processors, whose results do not depend on the number of processors.
 #pragma once
 
 #include <algorithm>
@@ -17,10 +17,10 @@
 
 namespace csgrt {
 
-/// That this process may use.
+/// The number of processors that this process may use.
 inline unsigned processor_count() { return std::max(1u, std::thread::hardware_concurrency()); }
 
-/// 0 stands for as many as this thread is allowed.
+/// The number of threads. 0 stands for as many as this thread may use.
 inline unsigned thread_count(unsigned wanted) {
     if (wanted == 0) wanted = threads_allowed;
     return wanted != 0 ? wanted : processor_count();
@@ -32,8 +32,9 @@ void on_threads(unsigned threads, const Work& work) {
     threads > 1 ? Pool::own().run(threads, std::cref(work)) : work();
 }
 
-/// Calls work(first, last, chunk) for chunk = 0, 1, ... of `size` numbers each that make up 0 ... count - 1, in any
-/// order and several at once. If some throw, what the foremost chunk threw is thrown, and no more chunks begin.
+/// Calls work(first, last, chunk) for chunk = 0, 1, ...: chunks of `size` numbers each that make up 0 ... count - 1, in
+/// any order and several at once. If some calls throw, the exception of the foremost chunk is thrown, and no more
+/// chunks begin.
 template <class Work>
 void for_chunks(std::size_t count, std::size_t size, unsigned threads, const Work& work) {
     const std::size_t chunks = (count + size - 1) / size;
@@ -49,7 +50,7 @@ void for_chunks(std::size_t count, std::size_t size, unsigned threads, const Wor
                 const std::lock_guard lock(mutex);
                 if (chunk < foremost) thrown = std::current_exception();
                 foremost = std::min(foremost, chunk);
-                next = chunks;  // those before it have begun
+                next = chunks;  // earlier chunks have begun
             }
         }
     };
@@ -58,8 +59,8 @@ void for_chunks(std::size_t count, std::size_t size, unsigned threads, const Wor
     if (thrown) std::rethrow_exception(thrown);
 }
 
-/// Room for `count` in memory that the system has cleared, page by page, for all threads side by side: for one alone
-/// that takes a good part of what it then does with it, if there is much.
+/// Reserves memory for `count` elements and has all threads side by side touch its pages, which the system then clears.
+/// For large memory one thread alone would spend much of its time on this.
 template <class T>
 void reserve_cleared(std::vector<T>& all, std::size_t count) {
     constexpr std::size_t page = 4096, piece = std::size_t{1} << 22;
@@ -73,7 +74,7 @@ void reserve_cleared(std::vector<T>& all, std::size_t count) {
     });
 }
 
-/// Makes them `count` elements, the new ones in such memory.
+/// Resizes to `count` elements; new memory is cleared as in reserve_cleared().
 template <class T>
 void resize_cleared(std::vector<T>& all, std::size_t count) {
     reserve_cleared(all, count);
@@ -84,8 +85,8 @@ void resize_cleared(SharedVector<T>& all, std::size_t count) {
     resize_cleared(all.own(), count);
 }
 
-/// Makes make(first, last) of such chunks, several at once, and calls take() with what they are, one at a time and in
-/// their order, as soon as those before are taken.
+/// Calls make(first, last) for such chunks, several at once, and take() with the results, one at a time and in order,
+/// as soon as the results before are taken.
 template <class Make, class Take>
 void for_chunks_in_order(std::size_t count, std::size_t size, unsigned threads, const Make& make, const Take& take) {
     std::mutex mutex;
@@ -97,7 +98,7 @@ void for_chunks_in_order(std::size_t count, std::size_t size, unsigned threads, 
         std::unique_lock lock(mutex);
         made[chunk].emplace(std::move(mine));
         if (is_taking) return;
-        is_taking = true;  // until there is no next one; if take() throws, for good
+        is_taking = true;  // until there is no next one; if take() throws, for ever
         for (; next < made.size() && made[next]; ++next) {
             auto it = std::exchange(made[next], std::nullopt);
             lock.unlock();

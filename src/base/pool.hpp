@@ -1,5 +1,5 @@
-// The process's threads that compute: they are started when several have work, and wait between works for the next one,
-// whoever calls. All in the header, as process.hpp is.
+// Pool: the process's threads for computing. They are started when several have work, and wait between works for the
+// next, whoever calls. All in the header, as in process.hpp.
 #pragma once
 
 #include <algorithm>
@@ -16,14 +16,14 @@ namespace csgrt {
 
 class Pool {
 public:
-    /// This process's. It is never destroyed: a program may end, or fork, while threads work.
+    /// The pool of this process. It is never destroyed: a program may end, or fork, while threads work.
     static Pool& own() {
         static std::atomic<Pool*> last{nullptr};
         Pool* found = last.load();
         if (found && found->process_ == process_number()) return *found;
         auto* const fresh = new Pool;
         if (last.compare_exchange_strong(found, fresh)) return *fresh;
-        delete fresh;  // another thread was sooner
+        delete fresh;  // another thread was faster
         return *found;
     }
 
@@ -38,9 +38,9 @@ public:
         begun_.notify_all();
     }
 
-    /// Calls work() on this thread, and on as many as `threads` - 1 others as are free before it returns here. Returns
-    /// when all have returned. It must not throw. Where the system gives fewer threads, those do. Several calls at a
-    /// time, also within a work, share the threads.
+    /// Calls work() on this thread, and on `threads` - 1 others that become free before it returns here. Returns when
+    /// all calls have returned. work() must not throw. If the system gives fewer threads, these do the work. Several
+    /// calls at a time, also within a work, share the threads.
     void run(unsigned threads, const std::function<void()>& work) {
         if (threads <= 1) return work();
         Call call{work, threads - 1};
@@ -60,7 +60,7 @@ public:
 private:
     struct Call {
         const std::function<void()>& work;
-        unsigned wanted;  ///< threads yet
+        unsigned wanted;  ///< threads that it still wants
         unsigned threads_allowed = csgrt::threads_allowed;
         unsigned running = 0;
         std::condition_variable ended = {};
@@ -85,9 +85,9 @@ private:
     const unsigned process_ = process_number();
     std::mutex mutex_;
     std::condition_variable begun_;
-    std::vector<Call*> calls_;  ///< that want threads
+    std::vector<Call*> calls_;  ///< calls that want threads
     bool stop_ = false;
-    JoinedThreads threads_;  // joined before the rest goes
+    JoinedThreads threads_;  // joined before the other members are destroyed
 };
 
 }  // namespace csgrt

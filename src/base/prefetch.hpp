@@ -1,18 +1,18 @@
-// Asking for memory ahead, where what is read next lies anywhere and waiting for it would take most of the time.
+// Prefetch: loads memory ahead, where the next data lie anywhere and waiting for them would take most of the time.
 #pragma once
 
 #include <cstddef>
 
 namespace csgrt {
 
-/// Asks for memory that will be read.
+/// Prefetches the line of an address.
 inline void prefetch_line([[maybe_unused]] const void* memory) {
 #if defined(__GNUC__)
     __builtin_prefetch(memory);
 #endif
 }
 
-/// Asks for all of an object.
+/// Prefetches all lines of an object.
 template <class T>
 void prefetch_whole(const T& object) {
     constexpr std::size_t line = 64;

@@ -1,4 +1,4 @@
-// A new folder of this user's alone, which goes at the end with what is in it.
+// Private folder: a new folder for this user alone, which is removed at the end with its contents.
 #pragma once
 
 #include <cstdlib>
@@ -12,7 +12,7 @@ namespace csgrt {
 
 class PrivateFolder {
 public:
-    /// Below the folder for temporary files. Throws Error (file).
+    /// Makes a folder below that for temporary files. Throws Error (file).
     PrivateFolder() {
         std::error_code error;
         path_ = (std::filesystem::temp_directory_path(error) / "csgrt-XXXXXX").string();

@@ -1,5 +1,5 @@
-// Which process this is. A fork makes another one, which has the memory of the first, and of its threads the one that
-// forked. All in the header, as new_file.hpp is.
+// Process: which process this is. A fork makes another process, which has the memory of the first, but only the forking
+// thread of its threads. All in the header, as in new_file.hpp.
 #pragma once
 
 #include <atomic>
@@ -15,11 +15,11 @@ inline std::atomic<unsigned> forks{0};
 [[maybe_unused]] inline const int watched_forks = pthread_atfork(nullptr, nullptr, [] { ++forks; });
 #endif
 
-/// Another number in a child of fork() than in its parent. Any thread.
+/// A number that differs in a child of fork() from its parent's. Any thread.
 inline unsigned process_number() noexcept { return forks.load(std::memory_order_relaxed); }
 
-/// Deletes what this process made. What it has from a parent stays as it is, which costs nothing but addresses: threads
-/// that are not there cannot be waited for, and a driver does not know this process.
+/// Deletes objects that this process made. Objects from a parent are left alone, which costs only addresses: threads
+/// that do not exist here cannot be waited for, and a driver does not know this process.
 struct DeleteOwn {
     unsigned process = process_number();
     template <class T>
@@ -28,7 +28,7 @@ struct DeleteOwn {
     }
 };
 
-/// The process that first uses a library whose threads, once started, no child has. Any thread.
+/// The process that first uses a library whose threads, once started, do not exist in children. Any thread.
 class FirstUser {
 public:
     bool is_this_process() {

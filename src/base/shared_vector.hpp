@@ -1,4 +1,4 @@
-// A vector that copies share.
+// Shared vector: a vector whose copies share its elements.
 #pragma once
 
 #include <cstddef>
@@ -9,8 +9,8 @@
 
 namespace csgrt {
 
-/// As std::vector, but for copies: they share the elements until one of them is about to change its own. Whoever holds
-/// the only copy may write to different elements from several threads.
+/// As std::vector, except for copies: they share the elements until one of them changes its own. The holder of the only
+/// copy may write to different elements from several threads.
 template <class T>
 class SharedVector {
 public:
@@ -22,10 +22,10 @@ public:
     SharedVector(std::initializer_list<T> values) : SharedVector(Vector(values)) {}
 
     const Vector& get() const noexcept {
-        static const Vector* const none = new Vector;  // for ever: threads read it while the process ends
+        static const Vector* const none = new Vector;  // never destroyed: threads read it while the process ends
         return values_ ? *values_ : *none;
     }
-    /// To be changed: no other copy has these elements any more.
+    /// The elements for changing: no other copy shares them any more.
     Vector& own() {
         if (!values_)
             values_ = std::make_shared<Vector>();
@@ -36,7 +36,7 @@ public:
     operator const Vector&() const noexcept { return get(); }
     operator Vector&() { return own(); }
 
-    /// Do both have the same elements, in one place?
+    /// Whether both share the same elements.
     bool shares(const SharedVector& other) const noexcept { return values_ == other.values_; }
 
     std::size_t size() const noexcept { return get().size(); }

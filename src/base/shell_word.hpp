@@ -1,4 +1,4 @@
-// Commands that a user can copy.
+// Shell words: for commands that a user can copy.
 #pragma once
 
 #include <string>
@@ -6,7 +6,7 @@
 
 namespace csgrt {
 
-/// As one word of a shell's command, between quotes where it needs them.
+/// The text as one word of a shell's command, in quotes where needed.
 inline std::string shell_word(const std::string& text) {
     constexpr std::string_view plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_@%+=:,./-";
     if (!text.empty() && text.find_first_not_of(plain) == text.npos) return text;

@@ -1,5 +1,5 @@
-// Display values (sRGB, IEC 61966-2-1) and linear light. Of single operations that round the same everywhere, so that
-// every machine gives the same bits; no library's power does.
+// sRGB: display values (IEC 61966-2-1) and linear light. It computes with single operations that round the same
+// everywhere, so that every machine gives the same bits; a library's power does not.
 #pragma once
 
 namespace csgrt {
@@ -7,8 +7,8 @@ namespace csgrt {
 /// The linear light of a display value. 0 is black in both, 1 white; a highlight has more.
 inline double linear_of_display(double value) {
     if (!(value > 0.04045)) return value / 12.92;
-    // base^2.4 = base^2 * (base^2)^(1/5). Newton's steps towards that root fall, from a tangent of base^0.4, which lies
-    // above it, until rounding stops them.
+    // The root is base^2.4 = base^2 * (base^2)^(1/5). Newton's steps towards it fall, from a tangent of base^0.4, which
+    // lies above it, until rounding stops them.
     const double base = (value + 0.055) / 1.055, square = base * base;
     for (double root = 0.6 + 0.4 * base;;) {
         const double fourth = (root * root) * (root * root);

@@ -1,5 +1,5 @@
-// How csgrt starts threads: they compute as csgrt does, whatever state a thread has by birth, and leave the host's
-// signals to the host's threads.
+// Threads of csgrt: they compute with csgrt's floating-point state, whatever state a new thread has, and leave the
+// host's signals to the host's threads.
 #pragma once
 
 #include <cstddef>
@@ -19,8 +19,8 @@
 
 namespace csgrt {
 
-/// While it lives, signals that come from outside wait for another thread, or for its end. Threads that are started
-/// meanwhile, by a driver, too, never get one.
+/// Blocks signals from outside for its thread while it lives: they go to another thread, or wait. Threads that are
+/// started meanwhile, also by a driver, never get any.
 class BlockedSignals {
 public:
 #ifdef _WIN32
@@ -29,7 +29,7 @@ public:
     BlockedSignals() noexcept {
         sigset_t all;
         sigfillset(&all);
-        // What a thread does itself is told to nobody else.
+        // Signals that a thread causes itself are not blocked.
         for (const int own : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGTRAP, SIGSYS, SIGABRT}) sigdelset(&all, own);
         pthread_sigmask(SIG_SETMASK, &all, &before_);
     }
@@ -44,10 +44,12 @@ private:
 #endif
 };
 
-/// How many threads the work of this thread may use, with itself (Settings::threads); 0: one for each processor.
+/// The number of threads that the work of this thread may use, with itself (Settings::threads); 0: one for each
+/// processor.
 inline constinit thread_local unsigned threads_allowed = 0;
 
-/// While it lives, so many. Threads that are started meanwhile, and those of the pool that help, have the same limit.
+/// Sets this number while it lives. Threads that are started meanwhile, and helping threads of the pool, have the same
+/// limit.
 class AllowedThreads {
 public:
     explicit AllowedThreads(unsigned count) noexcept : before_(std::exchange(threads_allowed, count)) {}
@@ -68,7 +70,7 @@ auto in_own_state(Work work) {
     };
 }
 
-/// A std::thread that does `work`. Throws std::system_error if there is none to be had.
+/// A std::thread that does `work`. Throws std::system_error if no thread is available.
 class Thread : public std::thread {
 public:
     template <class Work>
@@ -89,7 +91,7 @@ public:
         for (Thread& thread : threads_) thread.join();
     }
 
-    /// One more, which does `work`. False where none is to be had: those that there are do the work.
+    /// Adds a thread that does `work`. False if none is available: the existing threads do the work.
     template <class Work>
     bool add(const Work& work) noexcept {
         try {
@@ -105,7 +107,7 @@ private:
     std::vector<Thread> threads_;
 };
 
-/// std::async of such threads; by default the work is done by who waits for it where there is no thread to be had.
+/// std::async with such a thread. By default the waiting thread does the work if no thread is available.
 template <class Work>
 auto start_async(Work work, std::launch how = std::launch::async | std::launch::deferred) {
     const BlockedSignals blocked;

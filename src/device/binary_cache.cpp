@@ -17,10 +17,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// In every name: the folder may be one that holds the user's own files, too.
+// The suffix of all names: the folder may hold the user's own files, too.
 constexpr const char* suffix = ".csgrt-binary";
 
-/// What stands before the binary. The first line is the version of all this: a file of another one is replaced.
+/// The head before a binary. Its first line is the version of the format: a file of another version is replaced.
 std::string head_of(const std::string& key, std::string_view binary) {
     Fnv1a sum;
     sum.add_text(key);
@@ -29,7 +29,8 @@ std::string head_of(const std::string& key, std::string_view binary) {
            key;
 }
 
-/// Empty where there is no file or one of more than `most_bytes`; what was read of one that cannot be read to its end.
+/// The contents of a file: empty if there is no file or one of more than `most_bytes`; the part before the fault if it
+/// cannot be read to its end.
 std::string content_of(const fs::path& file, std::uint64_t most_bytes) {
     std::error_code error;
     const std::uintmax_t size = fs::file_size(file, error);
@@ -47,7 +48,7 @@ struct Kept {
     fs::path file;
 };
 
-/// The cache's own files in a folder, the longest unused first.
+/// The cache's own files in a folder, the least recently used first.
 std::vector<Kept> files_in(const fs::path& folder) {
     std::vector<Kept> all;
     std::error_code error;
@@ -87,7 +88,7 @@ std::optional<std::string> BinaryCache::find(const std::string& key) const {
     const std::string_view binary = std::string_view(content).substr(head);
     if (!content.starts_with(head_of(key, binary))) return {};
     content.erase(0, head);
-    std::error_code ignored;  // where files can only be read
+    std::error_code ignored;  // the file may be read-only
     fs::last_write_time(file, fs::file_time_type::clock::now(), ignored);
     return content;
 }
@@ -115,7 +116,8 @@ void BinaryCache::remove_oldest() const {
     const std::vector<Kept> all = files_in(folder_);
     std::uint64_t bytes = 0;
     for (const Kept& kept : all) bytes += kept.bytes;
-    // What a process that ended badly did not finish is nobody's; what one now writes is younger.
+    // An unfinished file that is old is left from a process that ended badly; a file that a process writes now is
+    // younger.
     const auto old = fs::file_time_type::clock::now() - std::chrono::hours(1);
     for (const Kept& kept : all) {
         const bool unfinished = !kept.file.string().ends_with(suffix);

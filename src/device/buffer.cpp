@@ -5,7 +5,7 @@
 namespace csgrt {
 namespace {
 
-/// Waits until it is mapped.
+/// Maps memory, and waits until it is mapped.
 void* map_memory(const Driver& cl, cl_command_queue queue, cl_mem memory, cl_map_flags access, std::size_t bytes,
                  const std::string& name) {
     cl.check_lost();
@@ -19,7 +19,7 @@ void* map_memory(const Driver& cl, cl_command_queue queue, cl_mem memory, cl_map
     return data;
 }
 
-/// Waits until it is not.
+/// Unmaps memory, and waits until it is unmapped.
 void unmap_memory(const Driver& cl, cl_command_queue queue, cl_mem memory, void* data) noexcept {
     cl_event unmapped = nullptr;
     if (cl.is_lost || cl.EnqueueUnmapMemObject(queue, memory, data, 0, nullptr, &unmapped) != CL_SUCCESS) return;
@@ -81,7 +81,7 @@ Event Buffer::transfer_in(const void* source, std::size_t bytes, std::size_t off
     return Event(device_->cl(), event);
 }
 
-// To wait within the driver takes one call less, but only the other wait ends.
+// A wait within the driver takes one call less, but only the other wait has a time limit.
 Event Buffer::transfer_out(cl_command_queue queue, void* target, std::size_t bytes, std::size_t offset,
                            bool wait) const {
     check_range(bytes, offset);

@@ -1,4 +1,4 @@
-// Memory: on the device, and pages on the host that the device reaches without a copy in between.
+// Buffers: memory on the device, and pages on the host that the device reads and writes without another copy.
 #pragma once
 
 #include <cstddef>
@@ -13,12 +13,12 @@
 
 namespace csgrt {
 
-/// A named piece of device memory, counted against the device's budget. Of size 0 it holds no memory, and a kernel gets
-/// a null pointer for it. All transfers throw Error (device_fault, out_of_memory) with the buffer's name.
+/// A named block of device memory, counted against the device's budget. A buffer of size 0 holds no memory, and a
+/// kernel gets a null pointer for it. All transfers throw Error (device_fault, out_of_memory) with the buffer's name.
 class Buffer {
 public:
     Buffer(Device& device, std::string name, std::size_t bytes = 0);
-    /// Holds a copy of `values`.
+    /// Makes a buffer with a copy of `values`.
     template <class T>
     Buffer(Device& device, std::string name, const std::vector<T>& values)
         : Buffer(device, std::move(name), values.size() * sizeof(T)) {
@@ -36,11 +36,11 @@ public:
     std::size_t size() const noexcept { return size_; }  ///< bytes
     cl_mem get() const noexcept { return memory_.get(); }
 
-    /// Makes the buffer at least `bytes` large; what it held is lost if it had to grow.
+    /// Makes the buffer at least `bytes` large; its contents are lost if it has to grow.
     void reserve(std::size_t bytes);
     void release() noexcept;  ///< gives the memory back
 
-    /// Copies host -> device and back, and waits for it. `offset` is a place in the buffer, in bytes.
+    /// Copies from host to device or back, and waits for it. `offset`: position in the buffer, in bytes.
     void upload(const void* source, std::size_t bytes, std::size_t offset = 0);
     void read(void* target, std::size_t bytes, std::size_t offset = 0) const;
     template <class T>
@@ -48,13 +48,13 @@ public:
         static_assert(std::is_trivially_copyable_v<T>);
         upload(values.data(), values.size() * sizeof(T));
     }
-    /// The first `count` values.
+    /// Reads the first `count` values.
     template <class T>
     std::vector<T> read(std::size_t count) const {
         static_assert(std::is_trivially_copyable_v<T>);
         return read_by<T>(device_->queue(), count);
     }
-    /// The same by the device's copy queue, which does not wait for what else is queued.
+    /// Reads the first `count` values by the device's copy queue, which does not wait for other queues.
     template <class T>
     std::vector<T> read_beside(std::size_t count) const {
         return read_by<T>(device_->copy_queue(), count);
@@ -64,10 +64,10 @@ public:
     class Mapping;
     Mapping map(std::size_t bytes) const;
 
-    /// The same without the wait: the host's memory must stay as it is until the event, or the queue, is done.
+    /// Queues an upload: the host's memory must stay as it is until the event, or the queue, is done.
     Event queue_upload(const void* source, std::size_t bytes, std::size_t offset = 0);
     Event queue_read(void* target, std::size_t bytes, std::size_t offset = 0) const;
-    /// By the device's copy queue, which does not wait for what else is queued.
+    /// Queues a read on the device's copy queue, which does not wait for other queues.
     Event copy_read(void* target, std::size_t bytes, std::size_t offset = 0) const;
     /// Fills `bytes` (a multiple of 4) with copies of `value`.
     Event queue_fill(std::uint32_t value, std::size_t bytes, std::size_t offset = 0);
@@ -82,7 +82,7 @@ private:
         try {
             transfer_out(queue, values->data(), count * sizeof(T), 0, true);
         } catch (...) {
-            if (device_->cl().is_lost) keep_for_ever(values);  // it may yet write there
+            if (device_->cl().is_lost) keep_for_ever(values);  // the device may still write there
             throw;
         }
         return std::move(*values);
@@ -112,11 +112,11 @@ private:
 };
 
 /// Registers host memory with a GPU's driver, so that the GPU copies to it at the full speed of its bus. The driver
-/// holds as much on the device. What is there stays there. The memory must outlast this; the device need not.
+/// holds as much memory on the device. The contents stay. The memory must outlast the object; the device need not.
 class HostRegistration {
 public:
-    /// Throws Error (out_of_memory, device_fault) if the driver does not take it. Of a lost device the memory must stay
-    /// for ever: it may be written yet.
+    /// Throws Error (out_of_memory, device_fault) if the driver refuses the memory. Memory of a lost device must stay
+    /// for ever: the device may still write to it.
     HostRegistration(const Device& device, void* data, std::size_t bytes);
     HostRegistration(HostRegistration&&) noexcept = default;
     HostRegistration& operator=(HostRegistration&&) = delete;
@@ -131,9 +131,9 @@ private:
     void* data_ = nullptr;
 };
 
-/// Host memory that a GPU copies to and from at the full speed of its bus (ordinary pages go through a copy of the
-/// driver's, several times slower). It does not count against the device's budget, though NVIDIA's driver keeps as much
-/// on the device.
+/// Host memory that a GPU copies to and from at the full speed of its bus (ordinary pages go through the driver's own
+/// copy, several times slower). It does not count against the device's budget, though NVIDIA's driver holds as much on
+/// the device.
 class PinnedMemory {
 public:
     PinnedMemory(const Device& device, std::string name, std::size_t bytes);

@@ -1,4 +1,4 @@
-// Amounts of memory as people read them.
+// Amounts of memory, as text.
 #pragma once
 
 #include <cstdint>
@@ -6,7 +6,7 @@
 
 namespace csgrt {
 
-/// "512 bytes", "1.5 MiB"; one digit after the point.
+/// "512 bytes", "1.5 MiB": one digit after the point.
 std::string bytes_text(std::uint64_t bytes);
 
 }  // namespace csgrt

@@ -13,7 +13,7 @@ namespace csgrt {
 
 namespace {
 
-/// What --device may have meant: a type, a device's or a platform's name, or a word of one.
+/// A guess at a mistyped --device: a type, a device's or a platform's name, or a word of a name.
 std::string nearest_device(const std::vector<DeviceInfo>& devices, const std::string& wanted) {
     std::vector<std::string> known = {"accelerator", "cpu", "gpu", "gpus", "native", "pocl"};
     for (const DeviceInfo& device : devices) {
@@ -26,7 +26,7 @@ std::string nearest_device(const std::vector<DeviceInfo>& devices, const std::st
                 if (word.size() > 2) known.push_back(word);
         }
     }
-    if (std::find(known.begin(), known.end(), lower(wanted)) != known.end()) return {};  // known, and not there
+    if (std::find(known.begin(), known.end(), lower(wanted)) != known.end()) return {};  // known, but no device fits
     return did_you_mean(wanted, {known.begin(), known.end()});
 }
 
@@ -51,7 +51,7 @@ std::string nearest_device(const std::vector<DeviceInfo>& devices, const std::st
     throw Error(Status::no_device, std::vector<Diagnostic>{finding});
 }
 
-/// Of numbers, or of a method, that native devices have no kernels for.
+/// Refuses numbers, or a method, for which native devices have no kernels.
 [[noreturn]] void refuse_native(const std::vector<DeviceInfo>& devices) {
     refuse(devices, "native devices have the kernels of double precision alone", {},
            "An OpenCL device has those of single precision: on Debian and Ubuntu the package pocl-opencl-icd brings "
@@ -88,7 +88,7 @@ std::size_t choose_device(const std::vector<DeviceInfo>& devices, const std::str
     std::size_t first = devices.size();
     for (std::size_t i = 0; i < devices.size(); ++i) {
         const DeviceInfo& device = devices[i];
-        // PoCL has its short name in its version alone.
+        // PoCL has its short name only in its version.
         const bool fits = by_type ? device.type == wanted
                                   : lower(device.name + '\n' + device.platform + '\n' + device.version).find(wanted) !=
                                         std::string::npos;

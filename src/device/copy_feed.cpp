@@ -10,8 +10,8 @@
 namespace csgrt {
 namespace {
 
-// A piece is worth the time in which a copy begins, 4 microseconds; with two underway, the bus has no pause
-// (docs/experiments.md).
+// The bytes underway: a chunk takes longer than a copy takes to begin, 4 microseconds; with two underway, the bus has
+// no pause (docs/experiments.md).
 constexpr std::size_t most_underway = 2 * CopyFeed::piece;
 constexpr std::size_t floats_a_thread = std::size_t{1} << 19;  // fewer are written sooner than a thread wakes
 
@@ -19,7 +19,7 @@ std::size_t end_of(const CopyFeed::Copy& copy) {
     return copy.begin + (copy.channels - 1) * copy.slice + (copy.lines - 1) * copy.pitch + copy.columns;
 }
 
-/// From one channel and line right behind the other to where they belong.
+/// Writes values that stand one channel and line right behind the other to their target.
 void put(const CopyFeed::Copy& copy, const float* values) {
     for_chunks(copy.channels * copy.lines, std::max<std::size_t>(1, floats_a_thread / copy.columns), 0,
                [&](std::size_t i, std::size_t last, std::size_t) {
@@ -105,7 +105,7 @@ void CopyFeed::give(const std::shared_ptr<Job>& job) {
 }
 
 void CopyFeed::give_piece(const std::shared_ptr<Job>& job, const Copy& copy) {
-    Copy first = copy;  // where the device copies it to
+    Copy first = copy;  // the part that the device copies next
     if (!job->is_registered) {
         first.target = static_cast<float*>(staging_->data()) + next_ * piece;
         first.target_pitch = copy.columns;
@@ -133,7 +133,7 @@ void CopyFeed::give_piece(const std::shared_ptr<Job>& job, const Copy& copy) {
     device_.flush_copies();
 }
 
-/// Waits for the first of those underway.
+/// Waits for the first of the chunks underway.
 void CopyFeed::retire() {
     const Underway first = std::move(underway_.front());
     underway_.pop_front();

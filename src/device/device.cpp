@@ -13,15 +13,16 @@ namespace csgrt {
 
 namespace {
 
-/// What buffers may take of a device that is asked for no special amount. A driver keeps some memory for itself and
-/// does not say how much; a device that shares the host's memory must leave the host its half.
+/// The default budget for buffers. A driver keeps some memory for itself and does not say how much; a device that
+/// shares the host's memory must leave the host its half.
 std::uint64_t default_budget(const DeviceInfo& info, bool shares_host_memory) {
     if (!shares_host_memory) return info.memory / 8 * 7;
     const std::uint64_t host = available_host_memory();
     return std::min(info.memory, host ? host : info.memory) / 2;
 }
 
-/// Kernels of a GPU that ran as long would keep its other users waiting. A processor's take as long as rays do.
+/// A GPU's kernel that ran longer would keep its other users waiting. A processor's kernels take as long as the rays
+/// need.
 constexpr double default_timeout = 60;
 
 double patience_with(const DeviceInfo& info, double timeout) {
@@ -44,7 +45,7 @@ Device::Device(const FoundDevice& device, std::uint64_t max_memory, double timeo
     const cl_context_properties properties[] = {native::stop_property, reinterpret_cast<cl_context_properties>(&stop_),
                                                 0};
     cl_int code = CL_SUCCESS;
-    const BlockedSignals blocked;  // drivers start threads now
+    const BlockedSignals blocked;  // drivers start threads here
     context_ =
         Context(cl(), cl().CreateContext(is_native(info_) ? properties : nullptr, 1, &id_, nullptr, nullptr, &code));
     check(code, "clCreateContext (" + info_.name + ")");

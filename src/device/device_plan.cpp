@@ -33,8 +33,8 @@ std::vector<FoundDevice> find_gpu() {
     return gpu == devices.end() ? std::vector<FoundDevice>{} : std::vector<FoundDevice>{*gpu};
 }
 
-/// The native device that is meant, where it can be no other: the best of them comes before all other processors. Of
-/// several choices one may be a number, which counts all devices.
+/// The native device of a choice that can name no other: the best of them comes before all other processors. If there
+/// are several choices, one may be a number, which counts all devices.
 std::vector<FoundDevice> chosen_native(const Settings& settings) {
     const std::string choice = lower(settings.device);
     const bool is_one = choice == "cpu" || (choice.starts_with("native") && choice.find(',') == std::string::npos);
@@ -43,12 +43,12 @@ std::vector<FoundDevice> chosen_native(const Settings& settings) {
     if (native.empty()) return {};
     try {
         return pick(native, choose_devices(infos_of(native), settings.device));
-    } catch (const Error&) {  // whoever looks at all of them says what there is
+    } catch (const Error&) {  // the caller that looks at all devices reports the error
         return {};
     }
 }
 
-/// The native device, if it draws without being asked for.
+/// The native device, if it draws by default.
 std::vector<FoundDevice> native_by_default(const Settings& settings) {
     std::vector<FoundDevice> native;
     if (kernels_for(settings) == Kernels::any) native = find_native_devices();
@@ -77,7 +77,7 @@ DevicePlan plan_default(const Settings& settings) {
     return plan;
 }
 
-/// The error with what is known of drivers that cannot be used: one of theirs may be what was meant.
+/// Throws the error with the faults of drivers that cannot be used: the named device may be one of theirs.
 [[noreturn]] void refuse_with(const Discovery& found, const Error& error) {
     std::vector<Diagnostic> findings = error.diagnostics();
     for (const std::string& note : found.notes) findings.back().suggestion += "\n" + note;
@@ -106,8 +106,8 @@ DevicePlan plan_chosen(const Settings& settings) {
 }
 
 #ifdef __linux__
-/// exit() destroys what belongs to the thread that calls it, and then all else, the youngest first: a driver's
-/// libraries before what was there when their loading began. So the main thread waits here.
+/// Makes the main thread wait at exit. exit() destroys the objects of the calling thread, and then all others, the
+/// youngest first: a driver's libraries before objects that existed when their loading began.
 struct WaitAtExit {
     const std::future<void>& looking;
     unsigned process = process_number();
@@ -133,8 +133,8 @@ DevicePlan plan_devices(const Settings& settings) {
 void prepare_devices(const Settings& settings) {
     const FloatingPoint own;
     if (!may_use_drivers(settings) || !has_drivers()) return;
-    // Whoever needs the devices waits for find_devices(), and is told what is wrong with them. Where there is no thread
-    // to be had, nothing is looked for before.
+    // A caller that needs the devices waits for find_devices(), which reports their faults. If no thread is available,
+    // nothing is searched ahead.
     static const std::unique_ptr<std::future<void>, DeleteOwn> looking(new std::future<void>(start_async([] {
         try {
             find_devices();

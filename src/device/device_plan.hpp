@@ -1,5 +1,5 @@
-// Which devices draw, and when: native ones need no driver and no compiler, and draw at once where another must be
-// waited for.
+// Device plan: which devices draw, and when. Native devices need no driver and no compiler, and draw at once where
+// another device is not ready yet.
 #pragma once
 
 #include <functional>
@@ -12,16 +12,16 @@ namespace csgrt {
 
 struct DevicePlan {
     std::vector<FoundDevice> first;  ///< draw from the first call on; empty: there is none, and the reference draws
-    /// Finds those that take over once their kernels are compiled; none: `first` stay. It may load drivers: a thread's
-    /// work. Null: nobody takes over.
+    /// Finds the devices that take over once their kernels are compiled; none: `first` stay. It may load drivers, so a
+    /// thread calls it. Null: no device takes over.
     std::function<std::vector<FoundDevice>()> find_next;
-    std::string next;        ///< the name of those that take over, so far as it is known
-    bool is_default = true;  ///< nobody asked for these devices: what goes wrong with those that take over is no error
-    std::vector<std::string> notes;  ///< why the reference draws, a sentence each
+    std::string next;                ///< the name of the devices that take over, as far as it is known
+    bool is_default = true;          ///< the user named no device: a fault of the devices that take over is no error
+    std::vector<std::string> notes;  ///< the reasons why the reference draws, a sentence each
 };
 
-/// What `settings` mean: device, method and wait_for_device. Drivers are loaded where a device is named that is not
-/// native, or no native one can draw. Throws Error (no_device) if a named device is not there, or none has the method.
+/// Plans by `settings`: device, method and wait_for_device. Drivers are loaded if a named device is not native, or no
+/// native device can draw. Throws Error (no_device) if a named device is missing, or none has the method.
 DevicePlan plan_devices(const Settings& settings);
 
 /// Whether a Renderer of these settings loads drivers.

@@ -50,7 +50,7 @@ std::string platform_text(const OpenCl& cl, cl_platform_id platform) {
         "clGetPlatformInfo");
 }
 
-/// What the machine is taken for in tests.
+/// The machine that tests pretend.
 struct Pretence {
     std::string platform;
     bool are_broken = false;
@@ -98,7 +98,7 @@ std::vector<FoundDevice> devices_of(const OpenCl& cl, cl_platform_id platform) {
     return devices;
 }
 
-/// Those of each platform. One that fails leaves a note: the others still serve.
+/// Adds the devices of each platform. A platform that fails leaves a note; the others still serve.
 void add_devices(const OpenCl& cl, Discovery& found) {
     cl_uint count = 0;
     const cl_int code = cl.GetPlatformIDs(0, nullptr, &count);
@@ -124,8 +124,8 @@ void add_devices(const OpenCl& cl, Discovery& found) {
     }
 }
 
-/// The best native device stands before all other processors; levels of instructions that leave some of this one's
-/// unused, last.
+/// Adds native devices. The best stands before all other processors; levels that leave some of this processor's
+/// instructions unused stand last.
 void add_native(Discovery& found) {
     std::vector<FoundDevice> native = find_native_devices();
     if (native.empty()) return;
@@ -139,7 +139,7 @@ bool has_render_node(const std::filesystem::path& folder) {
     std::error_code error;
     for (std::filesystem::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error))
         if (entry->path().filename().string().starts_with("renderD")) return true;
-    return static_cast<bool>(error) && std::filesystem::exists(folder, error);  // there is something that is not shown
+    return static_cast<bool>(error) && std::filesystem::exists(folder, error);  // the folder exists but cannot be read
 }
 #endif
 
@@ -159,14 +159,14 @@ std::vector<FoundDevice> find_native_devices() {
 Discovery find_devices() {
     Discovery found;
     if (has_drivers()) {
-        // One thread at a time: where two begin at once, ocl-icd tells the second that there is no device, and PoCL
-        // crashes.
+        // Only one thread at a time searches: if two begin at once, ocl-icd tells the second that there is no device,
+        // and PoCL crashes.
         static std::mutex mutex;
         const std::lock_guard lock(mutex);
         const BlockedSignals blocked;
         const OpenClLoader& loader = opencl_loader();
         if (loader.functions) {
-            static bool lacked = false;  // ocl-icd loads drivers once, and says no word of those that it cannot load
+            static bool lacked = false;  // ocl-icd loads drivers once, and does not report those that it cannot load
             static_cast<void>(last_load_fault());
             add_devices(*loader.functions, found);
             lacked |= lacked_memory(last_load_fault());
@@ -188,7 +188,8 @@ bool may_have_gpu(const std::string& folder) {
     if (!pretended().platform.empty()) return true;
 #ifdef __linux__
     const std::filesystem::path root = folder;
-    // NVIDIA's driver, AMD's, WSL's, Arm's and Qualcomm's; all others draw through the kernel's render nodes.
+    // Device files of the drivers of NVIDIA, AMD, WSL, Arm and Qualcomm; all others draw through the kernel's render
+    // nodes.
     for (const char* name : {"nvidiactl", "nvidia0", "kfd", "dxg", "mali0", "kgsl-3d0"}) {
         std::error_code error;
         if (std::filesystem::exists(root / name, error)) return true;

@@ -16,19 +16,19 @@ namespace csgrt {
 
 namespace {
 
-thread_local int own_calls = 0;  // of the thread that calls exit(), which it does not wait for
+thread_local int own_calls = 0;  // calls of the thread that calls exit(), for which it does not wait
 
 class Gate {
 public:
     static Gate& of_process() {
-        static Gate* const gate = new Gate;  // for ever: threads may wait in it while the process ends
+        static Gate* const gate = new Gate;  // never destroyed: threads may wait in it while the process ends
         return *gate;
     }
 
     void enter() {
         constexpr std::chrono::seconds longest(3);
         std::unique_lock lock(mutex_);
-        // Who is inside may wait for who comes.
+        // A thread inside may wait for a thread that comes, so these are let in.
         const auto lets_in = [this] { return !is_closed_ || inside_ > 0; };
         const bool is_exit = is_closed_ && closer_ == std::this_thread::get_id();
         if (!(is_exit ? lets_in() : changed_.wait_for(lock, longest, lets_in)))
@@ -71,8 +71,9 @@ private:
 };
 
 #ifdef __linux__
-/// exit() destroys what belongs to the thread that calls it before all else: before what a compiler has made since our
-/// handler was registered, too. A program's main thread is nearly always that thread, and does not end otherwise.
+/// Waits first at exit(). exit() destroys the objects of the calling thread before all others, so also before the
+/// objects that a compiler has made since the handler was registered. The calling thread is nearly always the main
+/// thread, which does not end otherwise.
 struct CloseFirst {
     CloseFirst() = default;
     CloseFirst(const CloseFirst&) = delete;

@@ -1,25 +1,25 @@
-// Calls of drivers, and the end of the process.
+// Driver calls, and the end of the process.
 #pragma once
 
 #include "base/process.hpp"
 
 namespace csgrt {
 
-/// While there is one, a driver may compile, or run what it compiled, on threads of its own: PoCL compiles a kernel
-/// when it is first launched. exit() destroys what its compiler uses; so it waits for those that there are, half a
-/// minute at most, and no other begins: what would begin waits for the end.
+/// Marks a call of a driver. While there is one, a driver may compile, or run compiled code, on threads of its own:
+/// PoCL compiles a kernel when it is first launched. exit() destroys the objects that its compiler uses. So exit()
+/// waits for the calls that there are, half a minute at most, and no other begins: a new call waits for the end.
 class DriverCall {
 public:
-    /// Not `used`: it is nothing. Throws Error (usage) where nobody may wait for the end: in the thread that called
-    /// exit(), and in any other after 3 s, since a destructor may wait for that thread.
+    /// Begins a call. If not `used`, it does nothing. Throws Error (usage) in a thread that must not wait for the end:
+    /// the thread that called exit(); any other thread after 3 s, since a destructor may wait for it.
     explicit DriverCall(bool used = true);
     DriverCall(const DriverCall&) = delete;
     DriverCall& operator=(const DriverCall&) = delete;
     ~DriverCall();
 
-    /// A destructor's, which does not wait.
+    /// The call of a destructor, which does not wait.
     static DriverCall of_destructor(bool used) noexcept { return DriverCall(used, 0); }
-    /// False of a destructor's that comes after exit(): it calls no driver, and what a driver may know stays.
+    /// False for a destructor's call after exit(): then no driver is called, and memory that a driver may know stays.
     bool has_begun() const noexcept { return has_begun_; }
 
 private:
@@ -28,7 +28,7 @@ private:
     bool used_, has_begun_ = true;
 };
 
-/// Deletes what this process made in a DriverCall, if drivers may use it and the process does not end.
+/// Deletes objects that this process made in a DriverCall, if drivers may use them and the process does not end.
 struct DeleteInCall : DeleteOwn {
     bool used = true;
     template <class T>
@@ -38,7 +38,8 @@ struct DeleteInCall : DeleteOwn {
     }
 };
 
-/// Has exit() do so. To be called when drivers are loaded: what is loaded later is destroyed before it waits.
+/// Makes exit() wait. It must be called when drivers are loaded: objects that are loaded later are destroyed before the
+/// wait.
 void wait_for_driver_calls_at_exit();
 
 }  // namespace csgrt

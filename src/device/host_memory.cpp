@@ -33,7 +33,7 @@ std::uint64_t host_memory() { return memory_of_system().ullTotalPhys; }
 
 #elif defined(__APPLE__)
 
-// The system frees and compresses memory as it goes, and names no such number.
+// macOS frees and compresses memory as it goes, and has no such number.
 std::uint64_t available_host_memory() { return 0; }
 
 std::uint64_t host_memory() {
@@ -51,7 +51,7 @@ constexpr std::uint64_t unknown = std::numeric_limits<std::uint64_t>::max();
 std::uint64_t number_in(const char* path) {
     std::ifstream file(path);
     std::uint64_t number = 0;
-    return file >> number ? number : unknown;  // cgroup v2 says "max" where there is no limit
+    return file >> number ? number : unknown;  // cgroup v2 says "max" if there is no limit
 }
 
 std::uint64_t rest_of(const char* limit_path, const char* used_path) {

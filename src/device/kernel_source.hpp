@@ -1,4 +1,4 @@
-// The kernels' text, which travels inside the library.
+// Kernel source: the kernels' text, which is embedded in the library.
 #pragma once
 
 #include <string>
@@ -15,15 +15,15 @@ struct KernelFile {
 /// Every file under kernels/, by name. Written by cmake/embed.cmake.
 const std::vector<KernelFile>& kernel_files();
 
-/// One text of the named files, in that order, each `#include "..."` replaced by the file that it names, relative to
-/// the file that has it. A file comes in once, where it is first wanted, so an #include must not stand inside an #if
-/// that may be false; after an #undef of its guard (CSGRT_ELL_H of geometry/ell.h) it may be included once more. #line
-/// marks make a compiler name the true file and line. Throws std::logic_error if there is no such file: that is a fault
-/// of the library, not of its user.
+/// Assembles one text of the named files, in the given order. Each `#include "..."` is replaced by the file that it
+/// names, relative to the including file. A file is included once, where it is first needed, so an #include must not
+/// stand inside an #if that may be false. After an #undef of its guard (CSGRT_ELL_H of geometry/ell.h) it may be
+/// included once more. #line marks make a compiler name the true file and line. Throws std::logic_error if there is no
+/// such file: a fault of the library, not of its user.
 std::string assemble_program(const std::vector<std::string>& names);
 
-/// What a Program of the device is made of: the text of the named files, or for a native device, whose programs are of
-/// the default method, the name of one that was compiled ahead. That is empty for another method.
+/// The source of a Program for the device: the text of the named files, or for a native device the name of a program
+/// that was compiled ahead. The name is empty for another method than the default.
 std::string program_source(const DeviceInfo& device, const Settings& settings, const char* native_name,
                            const std::vector<std::string>& files);
 

@@ -33,8 +33,9 @@ bool rounds_single_correctly(const Device& device) {
     return config & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT;
 }
 
-/// All that a compiled program hangs on. Devices of one name may differ in their instructions, as processors of one
-/// maker do: how long their vectors are tells most of it, and a driver refuses what its device cannot run.
+/// The key of a compiled program, with everything that it depends on. Devices of one name may differ in their
+/// instructions, as processors of one maker do: the length of their vectors tells most of it, and a driver refuses a
+/// binary that its device cannot run.
 std::string key_of(const Device& device, const std::string& source, const std::string& options) {
     cl_uint vector = 0;
     check(device.cl().GetDeviceInfo(device.id(), CL_DEVICE_NATIVE_VECTOR_WIDTH_DOUBLE, sizeof vector, &vector, nullptr),
@@ -51,13 +52,13 @@ std::string key_of(const Device& device, const std::string& source, const std::s
 Program::Program(const Device& device, const std::string& source, const std::vector<std::string>& defines, bool single)
     : device_(&device) {
     const DriverCall call(!is_native(device.info()));
-    // -w: PoCL says on the standard error output how many warnings there were, one for each function that a scene does
-    // not need.
+    // -w: PoCL writes to the standard error output how many warnings there were, one for each function that a scene
+    // does not need.
     std::string options = std::string("-w -cl-std=CL1.2 -DCSGRT_REAL=") + (single ? "float" : "double");
     if (single && rounds_single_correctly(device)) options += " -cl-fp32-correctly-rounded-divide-sqrt";
     for (const std::string& define : defines) options += " -D" + define;
-    // So that twelve warps of 32 have room in a multiprocessor's 65,536 registers. Without a bound the compiler gave
-    // first hits 178, for ten warps in groups of two: goliath's kernels took 1.10 times as long on an H100.
+    // The bound gives twelve warps of 32 room in a multiprocessor's 65,536 registers. Without it the compiler gave
+    // first hits 178 registers, for ten warps in groups of two: goliath's kernels took 1.10 times as long on an H100.
     if (device.info().platform == "NVIDIA CUDA") options += " -cl-nv-maxrregcount=168";
 
     const std::optional<BinaryCache> cache = binary_cache_for(device.info());
@@ -69,8 +70,8 @@ Program::Program(const Device& device, const std::string& source, const std::vec
     if (cache) cache->keep(key, binary());
 }
 
-/// An exception leaves PoCL's compiler where memory ends, and leaves PoCL locked: nothing is released then, which would
-/// wait for ever.
+/// An exception leaves PoCL's compiler when memory runs out, and leaves PoCL locked: nothing is released then, which
+/// would wait for ever.
 cl_int Program::build(const std::string& options) const {
     const Driver& cl = device_->cl();
     const cl_device_id id = device_->id();
@@ -83,9 +84,10 @@ cl_int Program::build(const std::string& options) const {
 }
 
 void Program::compile(const std::string& source, const std::string& options) {
-    // PoCL reads a megabyte of declarations, all functions of OpenCL C for all types, before it looks for what it has
-    // compiled: 45 of 60 ms of each start. Without them it takes those that are used from builtins.h. Other releases
-    // than those that this was seen with may have them elsewhere; and should one not know these, it gets its own.
+    // PoCL reads a megabyte of declarations, all functions of OpenCL C for all types, before it looks for compiled
+    // binaries: 45 of 60 ms of each start. Without them it takes the used ones from builtins.h. Releases other than the
+    // tested ones may have the declarations elsewhere; a release that does not know these options gets its own
+    // declarations.
     const DeviceInfo& info = device_->info();
     has_own_declarations_ = is_pocl(info) && info.driver.starts_with("3.");
 
@@ -109,7 +111,7 @@ void Program::compile(const std::string& source, const std::string& options) {
     check(code, "clBuildProgram (" + options + ")");
 }
 
-/// False if the driver does not take it: then it is compiled anew.
+/// Loads a binary. False if the driver refuses it: then it is compiled anew.
 bool Program::load(const std::string& binary) {
     const Driver& cl = device_->cl();
     const cl_device_id id = device_->id();
@@ -122,10 +124,10 @@ bool Program::load(const std::string& binary) {
     return build("") == CL_SUCCESS;
 }
 
-/// What the driver made of the source; empty if it does not give it.
+/// The binary that the driver made of the source; empty if it does not give it.
 std::string Program::binary() const {
     const Driver& cl = device_->cl();
-    std::size_t size = 0;  // of one device, as the context has
+    std::size_t size = 0;  // of the context's one device
     const auto info = [&](cl_program_info what, std::size_t bytes, void* out) {
         return cl.GetProgramInfo(program_.get(), what, bytes, out, nullptr) == CL_SUCCESS;
     };
@@ -177,7 +179,7 @@ Event Kernel::queue(std::size_t items, std::size_t group) {
                         std::to_string(group) + ")");
     }
     Event queued(device_->cl(), event);
-    device_->check_end();  // a native device has left items out
+    device_->check_end();  // a native device has left out work-items
     return queued;
 }
 

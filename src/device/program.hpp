@@ -1,4 +1,4 @@
-// Programs and their kernels. Including this file brings all of src/device that a pipeline needs.
+// Programs and their kernels. This file includes all of src/device that a pipeline needs.
 #pragma once
 
 #include <string>
@@ -17,15 +17,14 @@ struct LocalMemory {
     std::size_t bytes;
 };
 
-/// One kernel of a program, ready to be queued. Not for two threads at a time: OpenCL keeps a kernel's arguments in it.
+/// One kernel of a program, ready to be queued. One thread at a time: OpenCL keeps a kernel's arguments in it.
 class Kernel {
 public:
-    /// Queues `items` work-items in groups of `group`; the last group is filled up, so the kernel must look whether
-    /// its number is below `items`. The arguments stand in the order of the kernel's own: a Buffer, a tuple of several,
-    /// LocalMemory, or a plain value of the very type that the kernel has (cl_uint, cl_double, a struct of
-    /// kernels/shared/layout.h).
-    /// Does not wait. 0 items: nothing is queued, and the event is empty.
-    /// Throws Error (device_fault, out_of_memory) that names the kernel, or Error (interrupted), see Device::end_by().
+    /// Queues `items` work-items in groups of `group`. The last group is filled up, so the kernel must check that its
+    /// number is below `items`. The arguments stand in the order of the kernel's own: a Buffer, a tuple of several,
+    /// LocalMemory, or a plain value of the kernel's very type (cl_uint, cl_double, a struct of
+    /// kernels/shared/layout.h). Does not wait. 0 items: nothing is queued, and the event is empty. Throws Error
+    /// (device_fault, out_of_memory) that names the kernel, or Error (interrupted), see Device::end_by().
     template <class... Arguments>
     Event launch(std::size_t items, std::size_t group, const Arguments&... arguments) {
         cl_uint position = 0;
@@ -67,22 +66,23 @@ private:
 };
 
 /// OpenCL C source, compiled for one device. `source`: see program_source. Each of `defines` becomes a -D ("COUNT=3",
-/// "HAS_TORUS"). `real` is double or, if asked for, float; then division and root are rounded correctly where the
-/// device can do it, as every result in double is.
+/// "HAS_TORUS"). `real` is double, or float if `single`. In float, division and root are rounded correctly if the
+/// device can do so, as every result in double is.
 class Program {
 public:
-    /// Takes what was compiled before, in this process or another, where the driver does not do so itself
-    /// (binary_cache.hpp). Throws Error (device_fault) with the compiler's words if the source does not compile.
+    /// Compiles the source, or takes a binary that was compiled before, in this process or another, if the driver does
+    /// not do so itself (binary_cache.hpp). Throws Error (device_fault) with the compiler's message if the source does
+    /// not compile.
     Program(const Device& device, const std::string& source, const std::vector<std::string>& defines = {},
             bool single = false);
 
     /// Throws Error (device_fault) if the program has no kernel of that name.
     Kernel kernel(const std::string& name) const;
-    /// What the compiler had to say; empty when all was well, and for a program that was compiled before.
+    /// The compiler's messages; empty without any, and for a program that was compiled before.
     const std::string& build_log() const noexcept { return build_log_; }
-    /// It was compiled before, and not now.
+    /// Whether the program was compiled before, and not now.
     bool is_from_cache() const noexcept { return is_from_cache_; }
-    /// Built with what builtins.h declares, not with the driver's declarations.
+    /// Whether it was built with the declarations of builtins.h instead of the driver's.
     bool has_own_declarations() const noexcept { return has_own_declarations_; }
 
 private:

@@ -1,4 +1,4 @@
-// Transfers that the host does not wait for: it queues more work first. The memory that they need stands here.
+// Queued transfers: the host queues more work before it waits for them. They own the memory that the transfers need.
 #pragma once
 
 #include <bit>
@@ -15,7 +15,7 @@
 
 namespace csgrt {
 
-/// Host -> device.
+/// A transfer from host to device.
 class QueuedUpload {
 public:
     QueuedUpload() = default;
@@ -26,8 +26,8 @@ public:
         if (event_ && event_.cl().is_lost) keep_for_ever(std::make_shared<std::vector<std::byte>>(std::move(bytes_)));
     }
 
-    /// Copies the values to the buffer's begin, which is made large enough, once what is queued is done. Waits for the
-    /// upload before this one only. Throws Error (device_fault, out_of_memory), also for that.
+    /// Copies the values to the buffer's begin, which is made large enough, once the queued commands are done. Waits
+    /// only for the upload before this one. Throws Error (device_fault, out_of_memory), also for the upload before.
     template <class T>
     void start(Buffer& buffer, std::span<const T> values) {
         static_assert(std::is_trivially_copyable_v<T>);
@@ -43,7 +43,7 @@ private:
     Event event_;
 };
 
-/// Device -> host: few bytes, which need not wait for the copies that a CopyFeed has still to make.
+/// A transfer from device to host, of few bytes, which need not wait for the copies that a CopyFeed still has to make.
 class QueuedRead {
 public:
     QueuedRead(Device& device, std::string name) : device_(&device), name_(std::move(name)) {}
@@ -51,16 +51,16 @@ public:
     QueuedRead& operator=(const QueuedRead&) = delete;
     ~QueuedRead() { wait_until_done(event_); }
 
-    /// Asks for `bytes` of the buffer from `offset` on as they are when what is queued is done.
+    /// Registers a read of `bytes` of the buffer from `offset` on, as they are when the queued commands are done.
     void start(const Buffer& buffer, std::size_t bytes, std::size_t offset = 0) {
         buffer_ = &buffer;
         bytes_ = bytes;
         offset_ = offset;
     }
     void cancel() { buffer_ = nullptr; }
-    /// Has them copied, if any were asked for. Does not wait, but the device must have finished all that writes the
-    /// buffer; until wait() it must stay as it is. If this was asked of several before one waits, their bytes come
-    /// together.
+    /// Queues the copy, if start() was called. Does not wait, but the device must have finished all commands that write
+    /// the buffer; until wait() the buffer must stay as it is. If several copies are queued before one wait, their
+    /// bytes come together.
     void copy() {
         if (buffer_ == nullptr) return;
         if (!memory_ || memory_->size() < bytes_) {
@@ -70,9 +70,9 @@ public:
         }
         event_ = std::exchange(buffer_, nullptr)->copy_read(memory_->data(), bytes_, offset_);
     }
-    /// The first `count` values of what start() has asked for, once they are there; they stay until the next copy().
-    /// Throws Error (device_fault, out_of_memory) if the copy failed; of the command that wrote them only its event
-    /// tells.
+    /// The first `count` values of the read, once they are there; they stay until the next copy(). Throws Error
+    /// (device_fault, out_of_memory) if the copy failed; only the event of the command that wrote the values reports
+    /// its failure.
     template <class T>
     std::span<const T> wait(std::size_t count) {
         if (count * sizeof(T) > bytes_) throw std::logic_error(name_ + ": more than was asked for");
@@ -85,9 +85,9 @@ public:
 private:
     Device* device_;
     std::string name_;
-    const Buffer* buffer_ = nullptr;  ///< to be read from
+    const Buffer* buffer_ = nullptr;  ///< the buffer to read from
     std::size_t bytes_ = 0, offset_ = 0;
-    std::optional<PinnedMemory> memory_;  ///< other memory a GPU's driver would copy to before the call returns
+    std::optional<PinnedMemory> memory_;  ///< pinned: to other memory a GPU's driver would copy before the call returns
     Event event_;
 };
 

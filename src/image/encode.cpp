@@ -35,7 +35,7 @@ void check_form(const Image& image, const std::string& name) {
     }
 }
 
-/// The pixels [first, end) one by one, as image files want them. R G B as linear light.
+/// The pixels [first, end) one by one, in the order of image files. R G B are linear light.
 void interleave(const Image& image, std::size_t first, std::size_t end, std::vector<float>& pixels) {
     const std::size_t count = image.channels.size();
     pixels.resize(count * (end - first));
@@ -56,7 +56,8 @@ void interleave(const Image& image, std::size_t first, std::size_t end, std::vec
 
 void describe(OIIO::ImageSpec& spec, const Image& image, bool every_channel) {
     for (const auto& [key, text] : image.attributes) {
-        const bool of_numbers = key == "csgrt:regions" || key == "csgrt:solids";  // of channels that a PNG has not
+        const bool of_numbers = key == "csgrt:regions" || key == "csgrt:solids";  // of channels that a PNG does not
+                                                                                  // have
         if (every_channel || !of_numbers) spec.attribute(key, text);
     }
     for (const auto& [key, matrix] : image.matrices) {
@@ -65,7 +66,7 @@ void describe(OIIO::ImageSpec& spec, const Image& image, bool every_channel) {
     }
 }
 
-/// OpenImageIO leaves out of an EXR's header what it has no memory for, without an error.
+/// Is the header of an EXR complete? OpenImageIO leaves out attributes without an error if memory runs out.
 bool has_header(const std::vector<unsigned char>& exr, const Image& image) {
     const auto has = [&](const std::string& key) {
         const char* const name = key.c_str();  // and the 0 behind it
@@ -104,7 +105,7 @@ std::vector<unsigned char> encode(const Image& image, const std::string& format,
         spec.attribute("DateTime", "");  // else OpenImageIO writes the time of day, and no two files are the same
     } else {
         spec.attribute("oiio:ColorSpace", "sRGB");
-        spec.attribute("oiio:UnassociatedAlpha", 1);  // what OpenImageIO is given, too
+        spec.attribute("oiio:UnassociatedAlpha", 1);  // OpenImageIO is given unassociated alpha, too
     }
     describe(spec, image, exr);
 
@@ -118,7 +119,7 @@ std::vector<unsigned char> encode(const Image& image, const std::string& format,
     check(output->open("csgrt." + format, spec));
     if (!exr) check(output->write_image(OIIO::TypeUInt8, colors.data(), 4));
     std::vector<float> floats;
-    // 16 rows are compressed together, by one thread.
+    // One thread compresses 16 rows together.
     const int rows_at_once =
         progress ? 16 * static_cast<int>(std::max(1u, std::thread::hardware_concurrency())) : image.height;
     for (int row = 0, end = 0; exr && row < image.height; row = end) {

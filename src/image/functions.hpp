@@ -1,4 +1,4 @@
-// How a program finds the functions of image.hpp that loads csgrt::image only when it wants them.
+// Functions of image.hpp, for a program that loads csgrt::image only when it needs it.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// 4x4 matrices in image headers.
+// Matrices (4x4) in image headers.
 #pragma once
 
 #include <vector>

@@ -15,7 +15,7 @@ namespace csgrt {
 
 namespace {
 
-/// csgrt's order. The file itself keeps its channels by alphabet.
+/// The order of channels in csgrt. The file itself keeps its channels in alphabetic order.
 constexpr std::array channel_order = {"R",   "G",      "B",     "A",     "Z",          "N.X",    "N.Y",
                                       "N.Z", "region", "solid", "depth", "partitions", "overlap"};
 
@@ -41,7 +41,7 @@ Image read(const std::string& path) {
             throw_from(path + ": cannot read: ", input->geterror());
     };
     const auto holds_ids = [&](std::size_t c) { return spec.channelformat(static_cast<int>(c)) == OIIO::TypeUInt32; };
-    // Converted to floats, whole numbers are parts of the greatest.
+    // If they were converted to floats, whole numbers would become parts of the greatest.
     read_as(OIIO::TypeFloat, 0, count, interleaved.data());
 
     std::vector<std::size_t> order(count);

@@ -1,4 +1,4 @@
-// OpenImageIO's threads, and OpenEXR's: of one process, and with the state of csgrt's threads. And its errors.
+// Threads of OpenImageIO and of OpenEXR: of one process, and with csgrt's floating-point state. And their errors.
 #pragma once
 
 #include <string>
@@ -11,15 +11,15 @@
 
 namespace csgrt {
 
-/// OpenImageIO turns all exceptions into words.
+/// Throws an error of OpenImageIO, which turns all exceptions into text.
 [[noreturn]] inline void throw_from(const std::string& what, const std::string& why) {
     throw Error(why.find("std::bad_alloc") == why.npos ? Status::file : Status::out_of_memory, what + why);
 }
 
 inline FirstUser pictures_user;
 
-/// Calls work(), by a thread from which theirs inherit. Throws Error (file) in a child of the process that did so
-/// first: it would wait for threads that it has not.
+/// Calls work() on a thread from which the libraries' threads inherit their state. Throws Error (file) in a child of
+/// the process that first did so: it would wait for threads that do not exist in it.
 template <class Work>
 auto with_image_threads(const std::string& name, const Work& work) {
     if (!pictures_user.is_this_process())

@@ -28,7 +28,7 @@ struct Bytes {
             value = value << 8 | taken[big_endian ? i : taken.size() - 1 - i];
         return value;
     }
-    /// Behind the next 0; its length before that.
+    /// Moves behind the next 0; returns the length before it.
     std::size_t word() {
         const auto end = static_cast<std::size_t>(std::find(rest.begin(), rest.end(), 0) - rest.begin());
         take(end + 1);
@@ -40,12 +40,12 @@ struct Bytes {
     }
 };
 
-// OpenEXR's file layout: attributes to an empty name, where each block of 16 rows begins, the blocks.
+// OpenEXR's file layout: attributes up to an empty name, then the positions of blocks of 16 rows, then the blocks.
 bool is_whole_exr(std::span<const unsigned char> file, int height) {
     constexpr int rows_a_block = 16;
     Bytes bytes{file};
     if (!bytes.begins("\x76\x2f\x31\x01\x02")) return false;
-    bytes.take(3);  // flags: long names, say
+    bytes.take(3);  // flags: for example long names
     while (bytes.good && bytes.word() > 0) {
         bytes.word();  // its type
         bytes.take(bytes.number(4, false));

@@ -1,11 +1,11 @@
-// What kernels/shared/base.h asks of the host's arithmetic, for each kind of number. Rounded as a device rounds.
+// Arithmetic of the host for kernels/shared/base.h, for each kind of number. It rounds as a device rounds.
 #pragma once
 
 namespace csgrt::host {
 
-/// A number that the compiler knows nothing of. GCC (12 at least) takes -fma(a, b, c) for fma(-a, b, -c) where the
-/// processor has that as one instruction: where a b + c is 0, the sign of the zero is another one, and no option keeps
-/// it from that. In float no fma is an instruction of the reference's (double_fma.hpp).
+/// A number that hides its origin from the compiler. GCC (12 at least) takes -fma(a, b, c) for fma(-a, b, -c) if the
+/// processor has it as one instruction: where a b + c is 0, the zero gets the other sign, and no option prevents this.
+/// In float the reference has no fma instruction (double_fma.hpp).
 [[gnu::always_inline]] inline double opaque(double x) {
 #if defined(__GNUC__) && !defined(__clang__)
 #if defined(__x86_64__)

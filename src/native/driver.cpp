@@ -19,7 +19,7 @@
 namespace csgrt::native {
 namespace {
 
-/// Which work-item runs, as builtins.h has it.
+/// The number of the current work-item, in the form of builtins.h.
 struct WorkItem {
     std::size_t id, size;
     const std::atomic<bool>* stop;
@@ -36,11 +36,11 @@ extern "C" void* csgrt_native_item() { return &csgrt::native::item; }
 namespace csgrt::native {
 namespace {
 
-// ---- What OpenCL's handles point to ----
+// ---- The objects behind OpenCL's handles ----
 
 struct Context {
     const std::atomic<bool>* const* stop = nullptr;
-    std::mutex kernels;  ///< one runs at a time
+    std::mutex kernels;  ///< one kernel runs at a time
 };
 struct Queue {
     explicit Queue(Context& c) : context(c) {}
@@ -73,10 +73,10 @@ Handle handle_of(T* object) {
     return reinterpret_cast<Handle>(object);
 }
 
-/// A device is one of compiled_levels() that can run here, whose address is its handle.
+/// A device is one of compiled_levels() that can run here. Its address is its handle.
 const Level& level_of(cl_device_id device) { return *reinterpret_cast<const Level*>(device); }
 
-int platform;  // of which the address counts
+int platform;  // only its address counts
 
 cl_ulong now() {
     const auto since = std::chrono::steady_clock::now().time_since_epoch();
@@ -91,7 +91,7 @@ void set(cl_int* code, cl_int value) {
     if (code) *code = value;
 }
 
-// ---- Answers to questions ----
+// ---- Information queries ----
 
 cl_int answer(const void* value, std::size_t bytes, std::size_t room, void* out, std::size_t* needed) {
     if (needed) *needed = bytes;
@@ -190,7 +190,7 @@ cl_int finish(cl_command_queue) { return CL_SUCCESS; }
 
 // ---- Memory ----
 
-constexpr std::size_t alignment = 128;  // of the longest vector, double16, as OpenCL has it
+constexpr std::size_t alignment = 128;  // of the longest vector, double16, as in OpenCL
 
 cl_mem create_buffer(cl_context, cl_mem_flags flags, std::size_t bytes, void* host, cl_int* code) {
     const bool is_own = !(flags & CL_MEM_USE_HOST_PTR);
@@ -264,7 +264,7 @@ cl_int mark(cl_command_queue, cl_uint, const cl_event*, cl_event* event) {
     return CL_SUCCESS;
 }
 
-// ---- Programs: the source is the name of one that was compiled ahead ----
+// ---- Programs: the source is the name of a program that was compiled ahead ----
 
 cl_program create_program(cl_context, cl_uint, const char** texts, const std::size_t* sizes, cl_int* code) {
     auto* const program = new BuiltProgram{std::string(texts[0], sizes[0])};
@@ -336,8 +336,8 @@ void run_here(const CompiledKernel& kernel, std::size_t items, const std::uint64
 
 namespace {
 
-// A thread takes parts until none is left: small ones, for rays differ in what they cost, but no smaller than it takes
-// to ask.
+// A thread takes parts until none is left. Parts are small, since rays differ in cost, but take longer than taking a
+// part does.
 void run(Context& context, const CompiledKernel& kernel, const std::uint64_t* arguments, std::size_t items,
          std::size_t group) {
     constexpr std::size_t parts_a_thread = 64, most_items = 4096, few_items = 64;

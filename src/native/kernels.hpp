@@ -1,4 +1,4 @@
-// The kernels that are compiled ahead of time, for each level of instructions that this library holds
+// Native kernels, compiled ahead of time for each level of instructions that this library has
 // (cmake/native_kernels.cmake writes the tables; clang compiles the files of kernels/ as they are).
 #pragma once
 
@@ -10,7 +10,7 @@
 
 namespace csgrt::native {
 
-/// Runs work-items [first, end). An argument is 64 bits: where memory begins, or a value of no more bytes than that.
+/// Runs work-items [first, end). An argument is 64 bits: the address of memory, or a value of at most so many bits.
 using Entry = void (*)(std::size_t first, std::size_t end, const std::uint64_t* arguments);
 
 struct CompiledKernel {
@@ -20,33 +20,33 @@ struct CompiledKernel {
     std::uint32_t argument_count;
 };
 
-/// What a program may be: one of these, with every type of solid.
+/// A program: one of these, with every type of solid.
 struct Program {
-    const char* name;  ///< as cmake/native_kernels.cmake lists them
+    const char* name;  ///< as in the list of cmake/native_kernels.cmake
     std::span<const CompiledKernel> kernels;
 
     const CompiledKernel* kernel(std::string_view name) const;
 };
 
-/// Runs work-items [0, items) of a kernel on this thread. When `stop`, which may be null, becomes true, those that have
-/// not begun are left out.
+/// Runs work-items [0, items) of a kernel on this thread. When `stop`, which may be null, becomes true, work-items that
+/// have not begun are left out.
 void run_here(const CompiledKernel& kernel, std::size_t items, const std::uint64_t* arguments,
               const std::atomic<bool>* stop);
 
 struct Level {
-    const char* name;  ///< as compilers call it: x86-64-v4
+    const char* name;  ///< its name in compilers: x86-64-v4
     std::span<const Program> programs;
 
     const Program* program(std::string_view name) const;
 };
 
-/// Those that this library holds, the best first. Empty if it was built without clang.
+/// The levels of this library, the best first. Empty if it was built without clang.
 std::span<const Level> compiled_levels();
 
-/// Whether this processor, and the system for it, can run a level.
+/// Whether this processor and its system can run a level.
 bool can_run(std::string_view level);
 
-/// The kernels of kernels/scan.cl, whose work-items wait for each other, in sequence: the same sums.
+/// The kernels of kernels/scan.cl, whose work-items wait for each other, as sequential code with the same sums.
 std::span<const CompiledKernel> scan_kernels();
 
 }  // namespace csgrt::native

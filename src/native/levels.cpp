@@ -21,7 +21,7 @@ Registers cpuid(unsigned leaf) {
     return r;
 }
 
-/// Which registers the system saves (XCR0): bits 1, 2 SSE and AVX; 5 to 7 AVX-512.
+/// The registers that the system saves (XCR0): bits 1, 2 SSE and AVX; 5 to 7 AVX-512.
 unsigned saved_registers() {
     unsigned low = 0, high = 0;
     __asm__("xgetbv" : "=a"(low), "=d"(high) : "c"(0));
@@ -30,7 +30,7 @@ unsigned saved_registers() {
 
 bool has(unsigned bits, unsigned wanted) { return (bits & wanted) == wanted; }
 
-/// 3, 4: x86-64-v3, v4 (System V ABI for x86-64, "Micro-Architecture Levels"). 0: less.
+/// The level of the processor: 3, 4 for x86-64-v3, v4 (System V ABI for x86-64, "Micro-Architecture Levels"). 0: less.
 int level_of_processor() {
     constexpr unsigned fma = 1u << 12, movbe = 1u << 22, osxsave = 1u << 27, avx = 1u << 28, f16c = 1u << 29;
     constexpr unsigned bmi1 = 1u << 3, avx2 = 1u << 5, bmi2 = 1u << 8, lzcnt = 1u << 5;

@@ -11,7 +11,7 @@ kernel::ray3 to_kernel(const Ray& r) {
     return {{r.origin.x, r.origin.y, r.origin.z}, {r.direction.x, r.direction.y, r.direction.z}};
 }
 
-/// Appends the ends of one solid's segments.
+/// Appends the boundaries of one solid's segments.
 void append_ends(const kernel::Geometry& g, std::uint32_t solid, const kernel::ray3& r, double t_min,
                  std::vector<kernel::End>& ends) {
     const kernel::SolidRecord& record = g.solids[solid];
@@ -36,8 +36,8 @@ std::vector<SolidSegment> intersect_solid(const CompiledScene& scene, std::uint3
     std::vector<SolidSegment> segments;
     for (std::size_t i = 0; i < ends.size(); i += 2) {
         const kernel::End &in = ends[i], &out = ends[i + 1];
-        // Aside of a face a ray may meet what it meets on the face's other side, too (kernels/geometry/beside.h).
-        if ((in.surface & MISSED) && !(in.t < out.t)) continue;  // room that was not used
+        // Aside of a face a ray may have the segments on the face's other side, too (kernels/geometry/beside.h).
+        if ((in.surface & MISSED) && !(in.t < out.t)) continue;  // unused room
         if ((in.surface & MISSED) && !segments.empty() && in.t <= segments.back().out) {
             if (out.t > segments.back().out) {
                 segments.back().out = out.t;

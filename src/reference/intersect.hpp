@@ -1,4 +1,4 @@
-// One solid alone, by the kernels' own source in double: for tests of the geometry.
+// Intersection of one solid alone, by the kernels' own source in double: for tests of the geometry.
 #pragma once
 
 #include <cstdint>
@@ -14,8 +14,8 @@ struct SolidSegment {
     Vec3 in_normal, out_normal;  ///< unit, outward from the solid
 };
 
-/// All segments of one ray in one solid, in order. Those that a ray in a face of the solid has beside the face are
-/// joined where they overlap.
+/// All segments of one ray in one solid, in order. A ray in a face of the solid may have several beside the face, which
+/// are joined where they overlap.
 std::vector<SolidSegment> intersect_solid(const CompiledScene& scene, std::uint32_t solid, const Ray& ray,
                                           Quartic quartic = Quartic::bracketed);
 

@@ -1,4 +1,4 @@
-// Which solids the reference tries on a ray: all that come near it.
+// Near solids: the solids that the reference tries on a ray.
 #pragma once
 
 #include <algorithm>
@@ -12,9 +12,9 @@
 
 namespace csgrt {
 
-/// A sphere around each solid, half as large again as the one around its box. The reference is there to find what is
-/// wrong, also with boxes: one that is too small by less than a third keeps no solid from being tried, so what it hides
-/// from the pipeline is seen. An unbounded solid is near every ray.
+/// A sphere around each solid, half as large again as the sphere around its box. The reference has to find faults, also
+/// of boxes: a solid whose box is too small by less than a third is still tried, so a solid that the box hides from the
+/// pipeline is seen. An unbounded solid is near every ray.
 class NearSolids {
 public:
     explicit NearSolids(const CompiledScene& scene);
@@ -22,14 +22,14 @@ public:
     /// Calls call(solid) in ascending order, for the whole line of the ray.
     template <class Call>
     void for_each(const Ray& ray, const Call& call) const {
-        Vec3 d = ray.direction;  // of any length: scaled, so that no square of it overflows or vanishes
+        Vec3 d = ray.direction;  // of any length: scaled, so that none of its squares overflows or vanishes
         const double longest = std::fmax(std::fabs(d.x), std::fmax(std::fabs(d.y), std::fabs(d.z)));
         d = {d.x / longest, d.y / longest, d.z / longest};
         for (std::size_t group = 0; group < groups_.size(); ++group) {
             const std::array<double, size> room = room_in(groups_[group], ray.origin, d);
             const std::size_t end = std::min(size, count_ - group * size);
             for (std::size_t i = 0; i < end; ++i)
-                if (!(room[i] < 0)) call(static_cast<std::uint32_t>(group * size + i));  // what overflowed is no number
+                if (!(room[i] < 0)) call(static_cast<std::uint32_t>(group * size + i));  // an overflow makes NaN
         }
     }
 
@@ -39,8 +39,8 @@ private:
         std::array<double, size> x, y, z, radius2;
     };
 
-    /// Below zero where the line passes by: the radius' square less that of the distance, times the direction's. A loop
-    /// that compilers turn into vectors.
+    /// The radius' square less the distance's, times the direction's square: below zero if the line passes by.
+    /// Compilers turn the loop into vectors.
     static std::array<double, size> room_in(const Spheres& s, const Vec3& o, const Vec3& d) {
         const double size2 = d.x * d.x + d.y * d.y + d.z * d.z;
         std::array<double, size> room;

@@ -1,4 +1,4 @@
-// 113-bit arithmetic for the kernels' source: what host_math.hpp has for double. Not for speed.
+// Quad arithmetic: 113 bits, for the kernels' source, in place of src/kernel_host/math.hpp. It is not fast.
 #pragma once
 
 #include <bit>
@@ -20,7 +20,7 @@ inline quad scaled(quad x, int e) {
     return x * quad(std::ldexp(1.0, e));
 }
 
-/// Newton on the double's root, 53 -> 106 -> 113 bits: within an ulp.
+/// The square root by Newton's steps on the double's root, 53 -> 106 -> 113 bits: within an ulp.
 inline quad root(quad x) {
     if (!(x > 0)) return x == 0 ? quad(0) : quad(std::sqrt(static_cast<double>(x)));
     quad y = std::sqrt(static_cast<double>(x));
@@ -29,12 +29,12 @@ inline quad root(quad x) {
     return y;
 }
 
-/// The bits of a number: magnitude 2^exponent, where that has 113 bits.
+/// The parts of a number: magnitude 2^exponent, where the magnitude has 113 bits.
 __extension__ typedef unsigned __int128 Bits;
 struct QuadParts {
     Bits magnitude;
     int exponent;
-    bool negative, normal;  ///< not normal: 0, subnormal, infinite or no number
+    bool negative, normal;  ///< not normal: 0, subnormal, infinite or NaN
 };
 inline QuadParts parts_of(quad x) {
     static_assert(sizeof(quad) == sizeof(Bits));
@@ -44,11 +44,11 @@ inline QuadParts parts_of(quad x) {
             biased != 0 && biased != 0x7fff};
 }
 
-/// 256 bits.
+/// An integer of 256 bits.
 struct Wide {
     Bits high, low;
 
-    /// Moved to the right; the last bit is set if some of what is lost was.
+    /// The number moved to the right; the last bit is set if a lost bit was.
     Wide moved(int by) const {
         if (by == 0) return *this;
         if (by > 255) return {0, Bits((high | low) != 0)};
@@ -70,7 +70,7 @@ inline quad fma(quad a, quad b, quad c) {
     const Bits x1 = x.magnitude >> 64, x0 = x.magnitude & half, y1 = y.magnitude >> 64, y0 = y.magnitude & half;
     const Bits low = x0 * y0, middle = x0 * y1 + (low >> 64), other = x1 * y0 + (middle & half);
     const Wide product{x1 * y1 + (middle >> 64) + (other >> 64), (other << 64) | (low & half)};
-    // Leading bits: of the product 224 or 225, moved to 252 or 253; of c 112, moved to 253.
+    // Leading bits: the product's is 224 or 225, moved to 252 or 253; c's is 112, moved to 253.
     Wide p{(product.high << 28) | (product.low >> 100), product.low << 28}, q{z.magnitude << 13, 0};
     const int p_exponent = x.exponent + y.exponent - 28, q_exponent = z.exponent - 141;
     const int exponent = p_exponent > q_exponent ? p_exponent : q_exponent;
@@ -101,7 +101,7 @@ inline quad fma(quad a, quad b, quad c) {
     Bits magnitude = sum.high >> 15;
     const Bits rest = (sum.high & 0x7fff) << 1 | Bits(sum.low != 0), tie = 0x8000;
     magnitude += rest > tie || (rest == tie && (magnitude & 1));
-    // Rounded up to 2^113, the magnitude carries into the exponent, as it should.
+    // If rounding makes the magnitude 2^113, it carries into the exponent, as it should.
     const int biased = exponent + 143 - leading + 112 + 16383;
     if (biased < 1 || biased > 0x7ffd) return a * b + c;  // beyond the normal numbers
     const Bits leading_one = Bits(1) << 112;
@@ -109,7 +109,7 @@ inline quad fma(quad a, quad b, quad c) {
                                ((Bits(static_cast<unsigned>(biased)) << 112) + (magnitude - leading_one)));
 }
 
-/// Of either zero: 0.
+/// The absolute value; 0 for both zeros.
 inline quad abs(quad x) { return x > 0 ? x : 0 - x; }
 
 inline quad floor(quad x) {
@@ -118,7 +118,7 @@ inline quad floor(quad x) {
     return whole > x ? whole - 1 : whole;
 }
 
-/// 2^e <= x < 2^(e + 1); x > 0, within a double's range.
+/// The exponent e with 2^e <= x < 2^(e + 1); x > 0, within a double's range.
 inline int exponent(quad x) {
     int e = std::ilogb(static_cast<double>(x));
     if (scaled(quad(1), e) > x) --e;  // the double was rounded up

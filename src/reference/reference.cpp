@@ -18,11 +18,11 @@ namespace {
 
 /// A partition that at least one region claims.
 struct ClaimedPartition {
-    kernel::End in, out;                   ///< the ends that bound it; their t is the partition's
-    bool in_leaves = false;                ///< `in` is where its solid ends (a subtraction exposes it)
+    kernel::End in, out;                   ///< the boundaries of the partition; their t is the partition's
+    bool in_leaves = false;                ///< `in` is where its solid ends (a subtraction exposes this surface)
     bool out_enters = false;               ///< `out` is where its solid begins
     std::uint32_t region = 0;              ///< the lowest claimant
-    std::vector<std::uint32_t> claimants;  ///< all of the region's rank, ascending; only kept if there are several
+    std::vector<std::uint32_t> claimants;  ///< all of the region's rank, ascending; kept only if there are several
 };
 
 }  // namespace
@@ -33,14 +33,14 @@ struct Reference::Claims {
     std::vector<ClaimedPartition> partitions;
     Weaver weaver;
     std::vector<std::uint32_t> solids, table,
-        claimants;                      ///< of a partition: its solids, their regions, those that claim it
-    std::vector<std::uint32_t> beside;  ///< ... on one side of a face that the ray runs in
+        claimants;                      ///< of a partition: its solids, their regions, the regions that claim it
+    std::vector<std::uint32_t> beside;  ///< the same on one side of a face that the ray runs in
     std::vector<std::uint8_t> values;   ///< of a tree's operands, while it is evaluated
     std::vector<kernel::End> row_ends;  ///< of a list's ray
     std::vector<kernel::PartitionNode> nodes;
     std::vector<kernel::OverlapPiece> pieces;
     std::size_t woven = 0, overlaps = 0;
-    std::size_t first_seen = SIZE_MAX;  ///< of `partitions`: the first one that ends behind t_min
+    std::size_t first_seen = SIZE_MAX;  ///< index in `partitions` of the first one that ends behind t_min
 };
 
 std::unique_ptr<ReferenceKernels> make_kernels(const CompiledScene& scene, const Settings& settings) {
@@ -129,7 +129,7 @@ void Reference::find_claimants(const WovenPartition& partition, std::uint32_t mi
     for (const std::uint32_t region : table)
         if (inside(region, solids, claims.values)) claimants.push_back(region);
     if (claimants.empty()) return;
-    // What is of a later rank yields to the first without a word.
+    // Claimants of a later rank yield to the first rank, and no overlap is reported.
     const std::uint32_t rank = rank_of(scene_.region_info[claimants.front()]);
     std::erase_if(claimants, [&](std::uint32_t region) { return rank_of(scene_.region_info[region]) != rank; });
 }
@@ -190,7 +190,7 @@ void Reference::evaluate(const kernel::Frame& frame, const kernel::RayRecord& ra
     }
 }
 
-// Which thread does a piece changes nothing in its result.
+// The results do not depend on which thread computes a part.
 template <class Work>
 void Reference::parallel(std::size_t count, Watch* watch, const Work& work) const {
     std::mutex mutex;
@@ -243,7 +243,7 @@ std::vector<kernel::Pixel> Reference::render(const PreparedFrame& prepared, Watc
     return pixels;
 }
 
-// A node for each claim, as kernel 4 leaves them: an end's place is odd where a solid ends.
+// The rows use a node for each claim, as kernel 4 leaves them: a boundary's index is odd where a solid ends.
 void Reference::append_rows(const kernel::Frame& frame, const kernel::RayRecord& record, std::uint32_t ray,
                             Fields fields, Claims& claims, RowMemory& rows) const {
     const std::size_t count = claims.partitions.size();

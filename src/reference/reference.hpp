@@ -1,5 +1,5 @@
-// The CPU reference: every solid near the ray tried, unique lists, trees as the model gives them. It checks the device,
-// bit by bit.
+// Reference: traces rays on the CPU to check devices, bit by bit. It tries every solid near the ray, keeps unique
+// lists, and evaluates trees as the model gives them.
 #pragma once
 
 #include <cstdint>
@@ -19,14 +19,14 @@ struct ReferenceCounts {
 
 class Reference {
 public:
-    /// Both must outlive it.
+    /// Refers to both, which must outlive it.
     Reference(const CompiledScene& scene, const ReferenceKernels& kernels);
 
-    /// Pixels by row from the top left, or those with the numbers `some`. Throws Error (interrupted) if `watch`, which
-    /// may be null, says so.
+    /// Renders the pixels by row from the top left, or those with the numbers `some`. Throws Error (interrupted) if
+    /// `watch`, which may be null, says so.
     std::vector<kernel::Pixel> render(const PreparedFrame& prepared, Watch* watch, ReferenceCounts& counts,
                                       const std::vector<std::uint32_t>* some = nullptr) const;
-    /// Every ray of a list.
+    /// Traces every ray of a list, and puts the rows into the sink.
     void trace(const kernel::Frame& frame, const RayList& rays, RowTaker& sink, Watch* watch,
                ReferenceCounts& counts) const;
 
@@ -35,12 +35,12 @@ private:
     /// Does the ray run in a face of one of its solids?
     static bool in_contact(const WovenPartition& partition, const std::vector<kernel::End>& ends);
     static bool is_one_solid(const WovenPartition& partition, const std::vector<kernel::End>& ends);
-    /// The regions of the first rank that claim a partition, ascending, by its solids but those whose ends have any of
-    /// `missed`.
+    /// The regions of the first rank that claim a partition, ascending, by its solids except those whose boundaries
+    /// have any of the marks `missed`.
     void find_claimants(const WovenPartition& partition, std::uint32_t missed, Claims& claims,
                         std::vector<std::uint32_t>& claimants) const;
     /// The claimants of a partition in which the ray runs in a face, by the rule of contact (kernels/boolean/claim.h).
-    /// `beyond`: sides that are not asked for.
+    /// `beyond`: sides that are cut away.
     void find_beside(const WovenPartition& partition, std::uint32_t beyond, Claims& claims) const;
     void evaluate(const kernel::Frame& frame, const kernel::RayRecord& ray, Claims& claims) const;
     /// Adds a listed ray's rows, and rows of overlaps.
@@ -54,7 +54,7 @@ private:
     const CompiledScene& scene_;
     const ReferenceKernels& kernels_;
     NearSolids near_;
-    std::vector<std::vector<std::uint32_t>> regions_of_;  ///< by solid, found from the trees here
+    std::vector<std::vector<std::uint32_t>> regions_of_;  ///< by solid, found from the trees by the reference itself
 };
 
 }  // namespace csgrt

@@ -1,5 +1,5 @@
-// Segments -> partitions, the straightforward way: sort all ends, take those within the tolerance of the first as one
-// event, keep the covering segments in a unique list.
+// Weaving in the simple way: sorts all boundaries, takes those within the tolerance of the first as one event, and
+// keeps the covering segments in a unique list.
 #pragma once
 
 #include <algorithm>
@@ -16,14 +16,14 @@ namespace csgrt {
 
 struct WovenPartition {
     double in = 0, out = 0;
-    std::uint32_t in_end = 0, out_end = 0;  ///< into the ends: 2 x segment + side
-    std::vector<std::uint32_t> segments;    ///< that cover it, ascending, each once
+    std::uint32_t in_end = 0, out_end = 0;  ///< indices of boundaries: 2 x segment + side
+    std::vector<std::uint32_t> segments;    ///< covering segments, ascending, each once
 };
 
-/// Memory for one ray after another: taken anew for each, it took a sixth of the time that a ray at a few solids does.
+/// Memory for one ray after another: new memory for each took a sixth of the time of a ray at a few solids.
 struct Weaver {
     std::vector<std::uint32_t> order, covering, begun, ended, stay, enter, next;
-    std::vector<WovenPartition> partitions;  ///< those of the last ray first, then what others left
+    std::vector<WovenPartition> partitions;  ///< those of the last ray first, then unused ones of earlier rays
 
     WovenPartition& append(std::size_t count) {
         if (count == partitions.size()) partitions.emplace_back();
@@ -31,8 +31,8 @@ struct Weaver {
     }
 };
 
-/// `ends`: two a segment, in then out; their t and the tolerance in the precision of the geometry that found them.
-/// The partitions are `weaver`'s, until it weaves again.
+/// Makes partitions. `ends`: two boundaries a segment, in then out; their t and the tolerance are in the precision of
+/// the geometry that found them. The partitions are `weaver`'s, until it weaves again.
 template <class End>
 std::span<const WovenPartition> weave(const std::vector<End>& ends, decltype(End::t) tolerance, Weaver& weaver) {
     std::vector<std::uint32_t>&order = weaver.order, &covering = weaver.covering, &begun = weaver.begun,
@@ -51,8 +51,8 @@ std::span<const WovenPartition> weave(const std::vector<End>& ends, decltype(End
         const auto at = static_cast<double>(t);
         while (end < order.size() && (ends[order[end]].t == t || ends[order[end]].t - t <= tolerance)) ++end;
 
-        // The segments that cover what follows: those before, less those that end here, and those that begin here,
-        // unless they end here too.
+        // The segments that cover the next partition: those that cover the last, less those that end here, and those
+        // that begin here, unless they end here too.
         for (auto* list : {&begun, &ended, &stay, &enter, &next}) list->clear();
         for (std::size_t i = begin; i < end; ++i) (order[i] % 2 ? ended : begun).push_back(order[i] / 2);
         std::sort(begun.begin(), begun.end());

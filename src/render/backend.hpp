@@ -1,4 +1,4 @@
-// Who draws and shoots: devices, or the CPU reference. The renderer knows this interface alone.
+// Backend: draws and shoots, on devices or by the CPU reference. The renderer knows only this interface.
 #pragma once
 
 #include <functional>
@@ -24,10 +24,10 @@ namespace csgrt {
 /// The memory of a frame's picture.
 struct FrameMemory {
     std::span<const ChannelMemory> channels;
-    std::span<const ChannelSource* const> sources;  ///< what each channel is
-    std::vector<std::uint8_t>& covered;             ///< of each tile: 0 if it holds nothing but background
+    std::span<const ChannelSource* const> sources;  ///< the source of each channel
+    std::vector<std::uint8_t>& covered;             ///< one a tile: 0 if it holds only background
     std::uint64_t& drawn_by;                        ///< the number of the backend that drew last; 0: none
-    std::shared_ptr<RegisteredMemory>& registered;  ///< with that backend's devices
+    std::shared_ptr<RegisteredMemory>& registered;  ///< with the devices of that backend
 };
 
 /// A model, and its kernels in the backend's precision.
@@ -37,33 +37,33 @@ struct ModelInUse {
     std::unique_ptr<const ReferenceKernels> kernels;
 };
 
-/// One thread at a time. All calls throw Error (device_fault, out_of_memory, interrupted).
+/// Draws and shoots. One thread at a time. All calls throw Error (device_fault, out_of_memory, interrupted).
 class Backend {
 public:
     virtual ~Backend() = default;
 
-    /// The next calls are about another model.
+    /// Sets the model of the next calls.
     virtual void set_model(std::shared_ptr<const ModelInUse> model) = 0;
     virtual bool is_reference() const { return false; }
-    /// Before each call of render() or trace() of that kind: waits until somebody has the kernels for it.
+    /// Waits until a device has the kernels for such calls. Called before each call of render() or trace().
     virtual void prepare(bool every_partition) = 0;
     virtual void render(const PreparedFrame& frame, const FrameMemory& memory, Watch& watch) = 0;
     /// Puts the rows of every ray into the sink.
     virtual void trace(const kernel::Frame& frame, const RayList& rays, RowTaker& sink, Watch& watch) = 0;
-    /// Before the call ends: are the rows those of the reference? See SpotCheck.
+    /// Checks before the call ends that the rows are those of the reference. See SpotCheck.
     virtual void check(const kernel::Frame&, const RayList&, const RowTaker&, Watch&) {}
 
-    /// Who answers the next call: a device's name, or several.
+    /// The name of the device, or of several, that answers the next call.
     virtual std::string name() const = 0;
-    /// Writes what the last call counted, and how long it took.
+    /// Writes the last call's counts and times.
     virtual void report(Statistics& statistics) const = 0;
-    /// How such calls are answered, in words.
+    /// The method by which such calls are answered, in words.
     virtual std::string method(bool every_partition) const = 0;
-    /// Milliseconds of the last prepare() and the call after it that went into building kernels.
+    /// Milliseconds that the last prepare() and the call after it spent on building kernels.
     virtual double build_ms_in_call() const { return 0; }
     /// The device that will take over, see Statistics::awaited_device.
     virtual std::string awaited() const { return {}; }
-    /// What kept a device that nobody named from taking over, once.
+    /// The fault that kept a device that nobody named from taking over; returned once.
     virtual std::optional<std::string> take_fault() { return {}; }
 };
 

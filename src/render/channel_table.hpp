@@ -1,4 +1,4 @@
-// The channels of a picture, in the order in which kernels and images have them.
+// Channel table: the channels of a picture, in the order of kernels and images.
 #pragma once
 
 #include <bit>
@@ -12,7 +12,7 @@ namespace csgrt {
 struct ChannelSource {
     const char* name;     ///< in the image
     std::uint32_t group;  ///< channel::..., which users choose
-    /// Of a pixel as the reference has it; of ids the bits.
+    /// The value of a pixel of the reference; of ids the bits.
     float (*value)(const kernel::Pixel&, const kernel::DisplayBytes& display);
 };
 

@@ -23,7 +23,7 @@ DeviceBackend::DeviceBackend(DevicePlan plan, std::shared_ptr<const ModelInUse> 
           },
           [this](DeviceGroup& group) { adapt(group); }, settings.wait_for_device) {}
 
-/// Gives it the model, if it has not got it.
+/// Gives the group the model, if it has another.
 void DeviceBackend::adapt(DeviceGroup& group) const {
     const std::shared_ptr<const ModelInUse> in_use = model();
     if (group.owner() != in_use) group.set_scene(in_use->scene, *in_use->kernels, in_use);
@@ -67,7 +67,7 @@ void DeviceBackend::render(const PreparedFrame& frame, const FrameMemory& memory
     try {
         counted([&] { drawer_->render(frame, target, &watch, counts_); });
         spot_check_.look_at(model_->scene, frame, memory, counts_.done, drawer_->name(), watch);
-    } catch (...) {  // pixels may be missing of tiles that are covered
+    } catch (...) {  // pixels may be missing in covered tiles
         std::ranges::fill(memory.covered, std::uint8_t{1});
         throw;
     }

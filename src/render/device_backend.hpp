@@ -1,4 +1,4 @@
-// Devices as a backend: those that draw at once, and those that take over when their kernels are compiled.
+// Device backend: devices that draw at once, and devices that take over when their kernels are compiled.
 #pragma once
 
 #include <mutex>
@@ -11,10 +11,11 @@ namespace csgrt {
 
 class DeviceBackend final : public Backend {
 public:
-    /// `search_ms`: what it took to find the plan's devices. The settings must outlive it. Throws Error.
+    /// Sets up the plan's devices. `search_ms`: the time that finding them took. The settings must outlive the backend.
+    /// Throws Error.
     DeviceBackend(DevicePlan plan, std::shared_ptr<const ModelInUse> model, const Settings& settings, double search_ms);
 
-    /// Devices get it when they are next used.
+    /// Sets the model. Devices get it when they are next used.
     void set_model(std::shared_ptr<const ModelInUse> model) override;
     void prepare(bool every_partition) override;
     void render(const PreparedFrame& frame, const FrameMemory& memory, Watch& watch) override;
@@ -39,11 +40,11 @@ private:
     }
 
     mutable std::mutex mutex_;
-    std::shared_ptr<const ModelInUse> model_;  ///< the takeover's job asks for it, too
+    std::shared_ptr<const ModelInUse> model_;  ///< read by the takeover's job, too
     double search_ms_;
     SpotCheck spot_check_;
     DeviceTakeover takeover_;
-    DeviceGroup* drawer_ = nullptr;  ///< of the next call
+    DeviceGroup* drawer_ = nullptr;  ///< for the next call
     PipelineCounts counts_;
     double build_ms_in_call_ = 0;
 };

@@ -29,10 +29,10 @@ DeviceTakeover::~DeviceTakeover() {
     if (job_.valid()) job_.wait();
 }
 
-/// The job: from devices that are to be found on, or to more kernels of those that there are. First hits of a few rays
-/// go the exact way, whose kernels no frame waits for either.
+/// The job: finds and sets up the next devices, or gives devices more kernels. First hits of a few rays take the way of
+/// every partition, whose kernels no frame waits for either.
 DeviceTakeover::Made DeviceTakeover::work(Made made) {
-    if (is_left_) return made;  // without a thread this is run by who waits for it
+    if (is_left_) return made;  // without a thread, the waiting thread runs this
     const DriverCall driver_call;
     if (!made.pipelines) {
         const std::vector<FoundDevice> devices = plan_.find_next();
@@ -61,12 +61,12 @@ void DeviceTakeover::begin() {
     const auto job = [this, made = std::make_shared<Made>(std::move(made))] { return work(std::move(*made)); };
     try {
         job_ = start_async(job, std::launch::async);
-    } catch (const std::system_error&) {  // there is no thread to be had: a call waits for it
+    } catch (const std::system_error&) {  // no thread is available: a call waits for the job
         job_ = start_async(job, std::launch::deferred);
     }
 }
 
-/// Takes what the job has made, which has ended or is waited for.
+/// Takes the job's result; the job has ended, or is waited for.
 void DeviceTakeover::collect() {
     try {
         Made made = job_.get();
@@ -121,7 +121,7 @@ std::optional<std::string> DeviceTakeover::take_fault() {
         std::rethrow_exception(fault_);
     } catch (const std::exception& error) {
         const std::string why = error.what();
-        const std::string first_line = why.substr(0, why.find('\n'));  // a compiler says hundreds
+        const std::string first_line = why.substr(0, why.find('\n'));  // a compiler writes hundreds
         return "the GPU cannot be used, the processor draws: " + first_line;
     }
 }

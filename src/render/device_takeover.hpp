@@ -1,6 +1,6 @@
-// Who draws: at once the devices that need no compiler, and others as soon as they are ready. These are found, set up
-// and given their kernels by a job on a thread, which has them to itself meanwhile; a call takes them over between two
-// frames. Either draws the same bits.
+// Device takeover: at first the devices that need no compiler draw, and others as soon as they are ready. A job on a
+// thread finds these, sets them up and gives them their kernels, and has them to itself meanwhile. A call takes them
+// over between two frames. Both draw the same bits.
 //
 //     first:   frame   frame   frame   frame
 //     job:     find, set up, compile ........|
@@ -23,32 +23,34 @@
 
 namespace csgrt {
 
-/// One thread at a time. The job is over when this is gone: what it refers to must outlive this.
+/// Chooses the devices of each call. One thread at a time. The job is over when this is destroyed: objects that the job
+/// refers to must outlive this.
 class DeviceTakeover {
 public:
-    /// Sets devices up; the job calls it too.
+    /// Sets devices up; the job calls it, too.
     using SetUp = std::function<std::unique_ptr<DeviceGroup>(const std::vector<FoundDevice>&)>;
-    /// Gives devices the scene that the next kernels are compiled for; the job calls it, too.
+    /// Gives devices the scene for which the next kernels are compiled; the job calls it, too.
     using Adapt = std::function<void(DeviceGroup&)>;
 
-    /// Sets the plan's first devices up and begins to look for the next. `waits`: these draw from the first call on, if
-    /// there are any. Throws Error (out_of_memory, device_fault).
+    /// Sets up the plan's first devices and begins to look for the next. `waits`: the next devices draw from the first
+    /// call on, if there are any. Throws Error (out_of_memory, device_fault).
     DeviceTakeover(DevicePlan plan, SetUp set_up, Adapt adapt, bool waits);
     DeviceTakeover(const DeviceTakeover&) = delete;
     DeviceTakeover& operator=(const DeviceTakeover&) = delete;
-    /// Waits for what the job is about, at most until one mode's kernels are compiled.
+    /// Waits for the current step of the job, at most until one mode's kernels are compiled.
     ~DeviceTakeover();
 
-    /// Who draws such a call, every partition or first hits, with its kernels compiled. Valid until the next call. Next
-    /// devices that lack the mode's kernels, or whose kernels cannot draw the scene, get them from the job, and the
-    /// first ones draw meanwhile. Throws what kept named devices from becoming ready, at this call and all later ones.
+    /// The devices that draw such a call, every partition or first hits, with their kernels compiled. Valid until the
+    /// next call. Next devices that lack the mode's kernels, or whose kernels cannot draw the scene, get them from the
+    /// job, and the first devices draw meanwhile. Throws the fault that kept named devices from becoming ready, at this
+    /// call and all later ones.
     DeviceGroup& drawer(bool every_partition, const CompiledScene& scene);
-    /// Who would draw, were there a call now that all kernels are compiled for.
+    /// The devices that would draw a call whose kernels are all compiled.
     const DeviceGroup& present() const { return next_ ? *next_ : *first_; }
 
     /// The name of the devices that the job makes ready; "gpu" until one is found; empty: there is no job.
     std::string awaited() const;
-    /// What kept devices that nobody named from taking over, once.
+    /// The fault that kept devices that nobody named from taking over; returned once.
     std::optional<std::string> take_fault();
 
 private:
@@ -71,16 +73,16 @@ private:
     bool waits_;
     std::unique_ptr<DeviceGroup> first_, next_;
     Ready ready_{};  ///< modes that next_ draws
-    bool is_over_;   ///< nobody takes over any more
+    bool is_over_;   ///< no device takes over any more
     std::exception_ptr fault_;
     bool is_told_ = false;
 
-    // What the job sees, too.
+    // The job reads these members, too.
     std::array<std::atomic<bool>, 2> wanted_{};
     std::atomic<bool> is_left_{false};
     mutable std::mutex name_mutex_;
     std::string name_;
-    std::future<Made> job_;  // goes first, and with it the job
+    std::future<Made> job_;  // destroyed first, and with it the job
 };
 
 }  // namespace csgrt

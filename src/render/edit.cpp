@@ -17,14 +17,14 @@ namespace csgrt {
 
 struct Edit::Impl {
     std::shared_ptr<const Model::Impl> before;
-    ModelSource source;          ///< with all edits but looks
-    std::optional<Scene> scene;  ///< in place of the source's, if that changes
+    ModelSource source;          ///< with all edits except appearances
+    std::optional<Scene> scene;  ///< in place of the source's, if it changes
     std::vector<Look> looks;     ///< in addition to the source's
 
     Scene& changed() {
         if (scene) return *scene;
         scene = *source.scene;
-        if (source.objects.empty()) scene->top = top_objects(*scene);  // of which an edit shall change none
+        if (source.objects.empty()) scene->top = top_objects(*scene);  // so that no edit changes them
         return *scene;
     }
     std::vector<std::string>& rendered() { return source.objects.empty() ? changed().top : source.objects; }
@@ -36,15 +36,15 @@ struct Edit::Impl {
 
 namespace {
 
-/// As paths of regions are.
+/// Normalises a path, to the form of regions' paths.
 std::string normal(const std::string& path) {
     const std::size_t first = path.find_first_not_of('/'), last = path.find_last_not_of('/');
     if (first == std::string::npos) throw Error(Status::usage, "the path '" + path + "' names nothing");
     return "/" + path.substr(first, last - first + 1);
 }
 
-/// Those before that the later ones leave something of, then these: as long as there are paths, however often they are
-/// edited.
+/// Joins lists of appearances: the earlier ones that the later ones do not replace whole, then the later ones. So there
+/// are as many as paths, however often they are edited.
 std::vector<Look> joined(std::vector<Look> all, const std::vector<Look>& later) {
     all.insert(all.end(), later.begin(), later.end());
     struct Last {
@@ -68,7 +68,7 @@ std::vector<Look> joined(std::vector<Look> all, const std::vector<Look>& later) 
     return kept;
 }
 
-/// Throws Error (usage) for a look that concerns none of the regions.
+/// Throws Error (usage) for an appearance that concerns none of the regions.
 void check_paths(const std::vector<Look>& looks, const LookTable& table, const std::vector<RegionInfo>& regions) {
     std::vector<bool> used(looks.size());
     for (const RegionInfo& region : regions)
@@ -83,11 +83,11 @@ void check_paths(const std::vector<Look>& looks, const LookTable& table, const s
     }
 }
 
-/// The same solids and regions, which look as `source` says and `table` has it.
+/// Returns the scene with the appearances of `source` and `table`, and the same solids and regions.
 CompiledScene repainted(const CompiledScene& before, const ModelSource& source, const LookTable& table) {
     CompiledScene made = before;
     for (RegionInfo& region : made.region_info.own()) table.apply(region);
-    std::vector<Warning> known;  // they were told when the scene was compiled
+    std::vector<Warning> known;  // reported when the scene was compiled
     static_cast<Looks&>(made) = looks_of({source.lights, source.ambient, source.background}, made.region_info.get(),
                                          made.region_lights, made.display_shading, known);
     made.hash = hash_of(made);
@@ -177,11 +177,11 @@ Edit& Edit::remove(const std::string& path) {
     return *this;
 }
 
-/// Throws Error (scene) for colours and the like that a scene must not have.
+/// Throws Error (scene) for colours and other values that a scene must not have.
 void Edit::Impl::check_values() const {
     Scene values;
     source.put_looks(values);
-    values.looks = looks;  // the others are known to be good
+    values.looks = looks;  // the others are valid
     FindingList findings;
     check_settings(values, [&](const Place& place, const std::string& message, const std::string& suggestion) {
         findings.add({place, message, suggestion, {}});
@@ -189,7 +189,7 @@ void Edit::Impl::check_values() const {
     if (!findings.empty()) throw Error(Status::scene, findings.take());
 }
 
-/// A region that begins or ceases to shine may get another number.
+/// Whether only tables change. A region that begins or ceases to emit light may get another number.
 bool Edit::Impl::changes_tables_alone(const LookTable& table) const {
     if (scene) return false;
     const auto is_finish = [&](std::uint32_t i) { return looks[i].finish.has_value(); };

@@ -1,4 +1,4 @@
-// The memory of pictures, and what of it is background already.
+// Framebuffer: the memory of pictures, and which of it is background already.
 #include <algorithm>
 #include <bit>
 #include <new>
@@ -15,7 +15,7 @@ namespace csgrt {
 Framebuffer::Framebuffer() = default;
 
 Framebuffer::~Framebuffer() {
-    // Memory that a GPU's driver knows, and that it cannot be told of after exit(), stays.
+    // Memory that a GPU's driver knows, and cannot forget after exit(), is never freed.
     if (!DriverCall::of_destructor(registered_ != nullptr).has_begun())
         static_cast<void>(new (std::nothrow) Image(std::move(image_)));
 }
@@ -42,16 +42,16 @@ Image Framebuffer::take() {
     return std::exchange(*this, {}).image_;
 }
 
-/// Makes it a picture of that form; new memory is background. Throws Error (interrupted) if `watch` says so.
+/// Makes it a picture of this form; new memory is background. Throws Error (interrupted) if `watch` says so.
 void Framebuffer::fit(int width, int height, std::vector<std::string> names, std::vector<float> background,
                       const Watch& watch) {
     const auto bits = [](float value) { return std::bit_cast<std::uint32_t>(value); };  // they may be ids
     const auto tiles_along = [](int size) { return (static_cast<std::size_t>(size) + TILE - 1) / TILE; };
     const std::size_t tiles = tiles_along(width) * tiles_along(height);
-    const bool fits =  // what was moved away keeps its size, but no tiles
+    const bool fits =  // a moved-from image keeps its size, but has no tiles
         image_.width == width && image_.height == height && image_.names == names && covered_.size() == tiles;
     if (!fits) {
-        *this = {};  // before there is more memory; and whole, if there is none
+        *this = {};  // frees the memory before more is taken; and leaves it valid if there is none
         const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
         Channels channels(pixels, background, &watch);
         image_.width = width;

@@ -8,7 +8,7 @@ bool Image::has_channel(std::string_view name) const noexcept { return std::rang
 
 namespace {
 
-/// The channel of that name, which holds ids or does not.
+/// The index of a channel by its name, and by whether it holds ids.
 std::size_t find_channel(const Image& image, std::string_view name, bool ids) {
     const auto found = std::ranges::find(image.names, name);
     const auto number = static_cast<std::size_t>(found - image.names.begin());

@@ -1,4 +1,4 @@
-// What a picture's header says beside its channels.
+// Image header: a picture's attributes beside its channels.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@
 
 namespace csgrt {
 
-/// The camera, as graphics programs expect it: matrices worldToCamera and cameraToScreen, row-major.
+/// Writes the camera in the form that graphics programs expect: matrices worldToCamera and cameraToScreen, row-major.
 void describe_camera(const PreparedFrame& frame, Image& image);
 
 /// Warnings, a line each, as many as a header has room for.

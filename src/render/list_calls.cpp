@@ -36,7 +36,7 @@ void find_regions(std::span<const Vec3> points, Array<std::int32_t>& answer, con
     trace(RayList(points), sink, Claims::all);
 }
 
-// A ray a line, along its pixels.
+// A ray goes along the pixels of a line.
 void find_pixels(const Slice& slice, Array<std::int32_t>& answer, const TraceList& trace) {
     if (slice.width < 1 || slice.height < 1 || slice.width > 32768 || slice.height > 32768)
         throw Error(Status::usage, "the size of a slice must be 1 to 32768 pixels each way");

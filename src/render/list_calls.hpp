@@ -1,4 +1,4 @@
-// What is asked of lists of rays: the calls of a Model, on the caller's thread, and a Renderer's.
+// List calls: the calls of a Model, on the caller's thread, and of a Renderer that are answered by lists of rays.
 #pragma once
 
 #include <cstdint>
@@ -12,10 +12,10 @@
 
 namespace csgrt {
 
-/// Which regions claim partitions: all; those that pictures show; or the ghosts alone.
+/// The regions that claim partitions: all; those that pictures show; or only the ghosts.
 enum class Claims { all, shown, ghosts };
 
-/// Puts the rows of a list.
+/// Traces a list and puts its rows into the receiver.
 using TraceList = std::function<void(const RayList&, RowTaker&, Claims)>;
 
 void find_partitions(const RayList& list, Partitions& answer, Fields fields, const TraceList& trace);

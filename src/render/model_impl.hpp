@@ -1,4 +1,5 @@
-// What a Model holds. Nothing of it changes, but for what is made when it is first needed.
+// Model implementation: the data of a Model. It does not change, except for parts that are made when they are first
+// needed.
 #pragma once
 
 #include <memory>
@@ -21,13 +22,13 @@ namespace csgrt {
 /// Traces rays through a compiled scene on the caller's thread. Any thread.
 class CallerTracer {
 public:
-    /// The scene must outlive it. `tolerance`: millimetres.
+    /// Refers to the scene, which must outlive it. `tolerance`: millimetres.
     CallerTracer(const CompiledScene& scene, double tolerance) : scene_(scene), tolerance_(tolerance) {}
     /// Puts the rows of a list.
     void trace(const RayList& list, RowTaker& taker) const;
 
 private:
-    /// Null: this processor has none.
+    /// The tracer; null: this processor has none.
     const NativeTracer* native() const;
     const Reference& reference() const;
 
@@ -39,9 +40,9 @@ private:
     mutable std::optional<Reference> reference_;
 };
 
-/// What a Model is made of.
+/// The input of a Model.
 struct ModelSource {
-    std::shared_ptr<const Scene> scene;  ///< but for its looks, lights, ambient light and background
+    std::shared_ptr<const Scene> scene;  ///< without its appearances, lights, ambient light and background
     std::vector<Look> looks;
     std::vector<Light> lights;
     double ambient;
@@ -49,7 +50,7 @@ struct ModelSource {
     std::vector<std::string> objects;
     Settings settings;
 
-    /// Gives a scene what stands beside it here.
+    /// Copies the members below into a scene.
     void put_looks(Scene& to) const {
         to.looks = looks;
         to.lights = lights;
@@ -60,17 +61,17 @@ struct ModelSource {
 
 struct Model::Impl {
     ModelSource source;
-    CompiledScene scene;  ///< all regions claim
+    CompiledScene scene;  ///< all its regions claim
     double tolerance;     ///< millimetres, in double precision
-    double compile_ms;    ///< to compile it
+    double compile_ms;    ///< for compiling it
     std::optional<CompiledScene> some_shown, some_ghosts;
 
-    /// Compiles. Throws Error (scene, usage).
+    /// Compiles the scene. Throws Error (scene, usage).
     explicit Impl(ModelSource of);
-    /// Of tables that are made, of which it derives those of the regions' states.
+    /// Takes tables that are made already, and derives those of the regions' states from them.
     Impl(ModelSource of, CompiledScene made, const Impl& before);
 
-    /// Where the regions claim that `which` is about.
+    /// The scene in which the regions of `which` claim.
     const CompiledScene& of(Claims which) const {
         return which == Claims::shown && some_shown ? *some_shown : which == Claims::ghosts ? *some_ghosts : scene;
     }
@@ -92,9 +93,9 @@ private:
     std::optional<CallerTracer> all_, shown_;
 };
 
-/// Throws Error (usage) for a setting that is no finite number.
+/// Throws Error (usage) for a setting that is not a finite number.
 void check_numbers(const Settings& settings);
-/// The tolerance that the settings ask for, in millimetres.
+/// The tolerance of the settings, in millimetres.
 double tolerance_of(const CompiledScene& scene, const Settings& settings);
 
 }  // namespace csgrt

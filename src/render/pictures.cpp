@@ -1,4 +1,4 @@
-// A Renderer's pictures: whole, coarse to fine, of several rays a pixel, and with ghosts.
+// Pictures of a Renderer: whole, coarse to fine, of several rays a pixel, and with ghosts.
 #include <algorithm>
 #include <cmath>
 #include <future>
@@ -31,7 +31,7 @@ void Renderer::render(const View& view, Framebuffer& framebuffer, const std::fun
                 [&](Watch& watch) { impl.render(view, framebuffer, shows, watch); });
 }
 
-/// Makes the framebuffer a picture of these channels, in memory that is background where it is new.
+/// Makes the framebuffer a picture of these channels; new memory is background.
 void Renderer::Impl::fit(Framebuffer& framebuffer, const kernel::Frame& frame, std::uint32_t channels,
                          const Watch& watch) const {
     const kernel::Pixel background_pixel = kernel::background_pixel(&frame);
@@ -49,7 +49,7 @@ void Renderer::Impl::fit(Framebuffer& framebuffer, const kernel::Frame& frame, s
     framebuffer.image_.are_ids = std::move(are_ids);
 }
 
-/// The frame's channels, which the framebuffer has.
+/// Draws the frame's channels, which the framebuffer has.
 void Renderer::Impl::draw(const PreparedFrame& prepared, Framebuffer& framebuffer, Watch& watch) {
     std::vector<const ChannelSource*> sources;
     std::vector<ChannelMemory> channels;
@@ -69,7 +69,7 @@ void Renderer::Impl::draw(const PreparedFrame& prepared, Framebuffer& framebuffe
     }
 }
 
-/// What other rays of the view show, in memory of the renderer's own.
+/// Draws other rays of the view, in memory of the renderer's own.
 const Image& Renderer::Impl::draw_beside(const View& view, const Sampling& sampling, std::uint32_t channels,
                                          Watch& watch) {
     PreparedFrame prepared = prepare_frame(scene(), view, tolerance, sampling);
@@ -79,8 +79,8 @@ const Image& Renderer::Impl::draw_beside(const View& view, const Sampling& sampl
     return beside.image_;
 }
 
-/// Every 8th pixel each way, then what is missing for every 4th, 2nd and all; what is drawn of one step covers what is
-/// to come. False: `coarse` ended it.
+/// Draws every 8th pixel each way, then the missing pixels of every 4th, 2nd and all. Pixels of one step cover those
+/// that are still to come. False: `coarse` ended it.
 bool Renderer::Impl::draw_coarse(const View& view, const PreparedFrame& prepared, Framebuffer& framebuffer,
                                  const std::function<bool(int)>& coarse, Watch& watch) {
     Image& image = framebuffer.image_;
@@ -115,7 +115,7 @@ bool Renderer::Impl::draw_coarse(const View& view, const PreparedFrame& prepared
     return true;
 }
 
-/// The colours become the mean of several rays' a pixel: Hammersley's points, moved so that the first is the middle.
+/// Makes the colours the mean of several rays a pixel: Hammersley's points, moved so that the first is the middle.
 void Renderer::Impl::add_samples(const View& view, const PreparedFrame& prepared, Framebuffer& framebuffer,
                                  Watch& watch) {
     Image& image = framebuffer.image_;
@@ -154,7 +154,7 @@ void Renderer::Impl::add_samples(const View& view, const PreparedFrame& prepared
     });
 }
 
-/// A colour for a display, as display_pixels() has it.
+/// A colour for a display, as in display_pixels().
 std::uint32_t Renderer::Impl::word_of(const float (&color)[4]) const {
     const double alpha = color[3], weight = alpha > 0 ? alpha : 1;
     std::uint32_t word = std::uint32_t{display_byte(alpha, true)} << 24;
@@ -163,7 +163,7 @@ std::uint32_t Renderer::Impl::word_of(const float (&color)[4]) const {
     return word;
 }
 
-/// Where a ghost would be seen before what is.
+/// Shows ghosts that would be seen before the picture's surfaces.
 void Renderer::Impl::add_ghosts(const View& view, const PreparedFrame& prepared, Framebuffer& framebuffer,
                                 Watch& watch) {
     Image& image = framebuffer.image_;

@@ -1,4 +1,4 @@
-// The CPU reference as a backend.
+// Reference backend: draws and shoots by the CPU reference.
 #pragma once
 
 #include "reference/reference.hpp"

@@ -25,7 +25,7 @@ const Settings& checked(const Settings& settings) {
     return settings;
 }
 
-/// Drivers start while a scene is compiled.
+/// Makes a Model while drivers start.
 Model model_of(Scene scene, const std::vector<std::string>& objects, const Settings& settings) {
     prepare_devices(checked(settings));
     return Model(std::move(scene), objects, settings);
@@ -52,7 +52,7 @@ Renderer::Renderer(Model model, const Settings& settings) : impl_(new Impl(std::
     impl.backend->report(impl.statistics);
 }
 
-/// What this call and the next ones are about.
+/// Sets the model of this call and the next ones.
 void Renderer::Impl::use_model(bool is_reference) {
     in_use = {};
     used(Claims::all, is_reference);
@@ -71,7 +71,7 @@ std::shared_ptr<const ModelInUse> Renderer::Impl::used(Claims claims, bool is_re
     return use;
 }
 
-/// At the begin of a call, which keeps its model whatever comes meanwhile.
+/// Takes the next model at the begin of a call, which keeps it whatever comes meanwhile.
 void Renderer::Impl::take_next() {
     if (!has_next) return;
     {
@@ -95,7 +95,7 @@ Model Renderer::model() const {
 void Renderer::set_model(Model model) {
     Impl& impl = this->impl();
     const std::lock_guard lock(impl.mutex);
-    std::swap(impl.next, model);  // the old one goes when the lock does not hold any more
+    std::swap(impl.next, model);  // the old one is destroyed after the lock is released
     impl.has_next = true;
 }
 
@@ -104,7 +104,7 @@ void Renderer::Impl::use_reference() {
     backend = std::make_unique<ReferenceBackend>(used(Claims::all, true));
 }
 
-// Without devices, and where nobody named one, the reference draws, with a warning.
+// If there is no device, and nobody named one, the reference draws, with a warning.
 void Renderer::Impl::set_up_devices() {
     const auto start = Clock::now();
     DevicePlan plan = plan_devices(settings);
@@ -128,7 +128,8 @@ void Renderer::Impl::set_up_devices() {
     use_reference();
 }
 
-/// Of a new call only the renderer's own figures are known yet, and of one that throws no others.
+/// Starts the statistics of a call: until it ends, only the renderer's own numbers are known; a call that throws leaves
+/// no others.
 void Renderer::Impl::start_call(std::uint64_t rays, bool every_partition, int width, int height) {
     Statistics fresh;
     fresh.device = statistics.device;
@@ -150,7 +151,7 @@ void Renderer::Impl::prepare(bool every_partition, Claims claims) {
     if (auto fault = backend->take_fault()) warn(std::move(*fault));
 }
 
-/// What a call waits for kernels counts as `build`.
+/// Time that a call waits for kernels counts as `build`.
 void Renderer::Impl::end_call(Clock::time_point start) {
     backend->report(statistics);
     statistics.ms.frame = milliseconds_since(start) - backend->build_ms_in_call();

@@ -1,4 +1,5 @@
-// What a Renderer holds. renderer.cpp has its making, models and lists of rays, pictures.cpp its pictures.
+// Renderer implementation: the data of a Renderer. renderer.cpp has its construction, models and lists of rays,
+// pictures.cpp its pictures.
 #pragma once
 
 #include <array>
@@ -18,22 +19,22 @@
 namespace csgrt {
 
 struct Renderer::Impl {
-    const unsigned process = process_number();  ///< where it works: its threads, and what drivers keep, are there alone
+    const unsigned process = process_number();  ///< where it works: its threads, and drivers' data, exist only there
     Settings settings;
     bool uses_drivers = false;
-    Model model;                                              ///< of the calls; another may be next
+    Model model;                                              ///< of the current call; another may be next
     double tolerance = 0;                                     ///< as kernels get it, in millimetres
     std::array<std::shared_ptr<const ModelInUse>, 3> in_use;  ///< by Claims; null: not needed yet
     std::unique_ptr<Backend> backend;
     std::vector<Warning> device_warnings;
     Statistics statistics;
-    Framebuffer beside;  ///< of rays beside the pixels' own
+    Framebuffer beside;  ///< for rays beside the pixels' own
 
     Impl(Model of, const Settings& given) : settings(given), model(std::move(of)), next(model) {}
 
-    std::mutex mutex;                   ///< of the next two
-    Model next;                         ///< what the next call is about
-    std::atomic<bool> has_next{false};  ///< it is not `model`
+    std::mutex mutex;                   ///< guards the next two
+    Model next;                         ///< the model of the next call
+    std::atomic<bool> has_next{false};  ///< `next` differs from `model`
 
     const CompiledScene& scene() const { return model.impl_->scene; }
     void use_model(bool is_reference);
@@ -56,7 +57,8 @@ struct Renderer::Impl {
     std::uint32_t word_of(const float (&color)[4]) const;
     void render(const View& view, Framebuffer& framebuffer, const std::function<bool(int)>& coarse, Watch& watch);
     void trace(const RayList& list, RowTaker& taker, Claims claims, Watch& watch);
-    /// Calls work(trace) as a call of the host's. `all`: the rays of several lists that it traces; 0: it traces one.
+    /// Calls work(trace) as a call of the host's. `all`: the number of rays of the several lists that it traces; 0: it
+    /// traces one.
     template <class Work>
     void call(const Work& work, std::uint64_t all = 0);
 };

@@ -1,4 +1,5 @@
-// What devices draw and shoot, traced by the CPU reference as well: some batches of it, bit by bit.
+// Spot check: the CPU reference traces some batches of the devices' pictures and lists, too, and compares them bit by
+// bit.
 #pragma once
 
 #include <memory>
@@ -12,11 +13,11 @@ namespace csgrt {
 
 class SpotCheck {
 public:
-    /// The first batch is looked at, and every n-th after it, n being Settings::check; none if that is 0. The settings
-    /// must outlive this.
+    /// Checks the first batch, and every n-th after it, n being Settings::check; none if it is 0. The settings must
+    /// outlive the object.
     explicit SpotCheck(const Settings& settings) : settings_(settings) {}
 
-    /// The next batches are another scene's.
+    /// Forgets the scene: the next batches are another's.
     void forget_scene() { reference_.reset(); }
 
     /// Throws Error (device_fault) that names the first pixel and channel, or the first ray, whose bits differ;

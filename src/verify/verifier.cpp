@@ -13,7 +13,8 @@ namespace csgrt {
 namespace {
 
 constexpr double roundings = 64, unit_roundoff = 0x1p-53;
-constexpr double most_leap = 4;  ///< of shift / cos; where a ray grazes a surface, a decided end may move by twice that
+constexpr double most_leap = 4;  ///< of shift / cos; where a ray grazes a surface, a decided boundary may move by twice
+                                 ///< that
 constexpr int corners = 8;
 constexpr int few_neighbours = 8, all_neighbours = 64;  ///< on a circle around a tie
 
@@ -21,7 +22,7 @@ Vec3 operator+(Vec3 a, Vec3 b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
 Vec3 operator-(Vec3 a, Vec3 b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
 Vec3 operator*(double s, Vec3 v) { return {s * v.x, s * v.y, s * v.z}; }
 
-/// The model's box; one of two millimetres about the origin if nothing in it is bounded.
+/// The model's box; one of two millimetres about the origin if nothing in the model is bounded.
 Box box_of(const Renderer& renderer) {
     const Box box = renderer.model().bounds();
     return box.low.x <= box.high.x ? box : Box{{-1, -1, -1}, {1, 1, 1}};
@@ -33,7 +34,7 @@ Settings on_reference(Settings settings) {
     return settings;
 }
 
-/// 113 bits with `tolerance`, and with the default for everything else: this is what the others are held against.
+/// Settings with 113 bits, `tolerance`, and the default for everything else: the answers that others are compared with.
 Settings exact(const Settings& settings, double tolerance) {
     Settings result = on_reference(settings);
     result.precision = Precision::quad;
@@ -43,27 +44,28 @@ Settings exact(const Settings& settings, double tolerance) {
     return result;
 }
 
-/// The 113-bit answer of one ray, and what has become of it when the ray moved.
+/// The 113-bit answer of one ray, and its changes when the ray moved.
 struct Judged {
     RayPartitions answer;
     bool tie = false, all_as_they_are = true;
-    std::vector<std::array<double, 2>> moved;  ///< by how much each partition's ends did, in units of the direction
-    RegionDifference difference;               ///< of a tie: what became different
+    std::vector<std::array<double, 2>> moved;  ///< the distances that each partition's boundaries moved, in units of
+                                               ///< the direction
+    RegionDifference difference;               ///< of a tie: the change
 };
 
-// Of infinite ends too: 0 where both are the same.
+// The distance of two numbers: 0 if both are equal, infinite ones too.
 double apart(double a, double b) { return a == b ? 0 : std::abs(a - b); }
 
 }  // namespace
 
-/// Some unit vector across `d`.
+/// Any unit vector across `d`.
 Vec3 across(Vec3 d) {
     const double x = std::abs(d.x), y = std::abs(d.y), z = std::abs(d.z);
     const Vec3 n = x <= y && x <= z ? Vec3{0, -d.z, d.y} : y <= z ? Vec3{d.z, 0, -d.x} : Vec3{-d.y, d.x, 0};
     return 1 / length(n) * n;
 }
 
-/// Rays beside a ray, all round it.
+/// Rays beside a ray, all around it.
 std::vector<Ray> neighbours_of(const Ray& ray, double distance, int count) {
     const Vec3 d = 1 / length(ray.direction) * ray.direction, u = across(d);
     const Vec3 v{d.y * u.z - d.z * u.y, d.z * u.x - d.x * u.z, d.x * u.y - d.y * u.x};
@@ -78,8 +80,8 @@ std::vector<Ray> neighbours_of(const Ray& ray, double distance, int count) {
 
 struct Verifier::Impl {
     Settings settings;
-    std::function<bool(double)> progress;  ///< of the present call
-    double done = 0, part = 0;             ///< of the present call: before the present shot, and the shot itself
+    std::function<bool(double)> progress;  ///< of the current call
+    double done = 0, part = 0;             ///< of the current call: before the current shot, and the shot itself
     std::optional<Renderer> device, reference, judge;
     std::vector<Renderer> other_tolerances;
     Box box;
@@ -107,7 +109,7 @@ struct Verifier::Impl {
     void judge_ties(const std::vector<Ray>& rays, std::vector<Judged>& judged, const std::vector<RayPartitions>& found);
 };
 
-/// With the answer of the ray moved, or with another tolerance.
+/// Compares with the answer of a moved ray, or of another tolerance.
 void Verifier::Impl::compare(Judged& judged, const RayPartitions& other, const NumberedRay& ray) {
     if (judged.tie) return;
     const std::vector<Partition>&a = judged.answer.partitions, &b = other.partitions;
@@ -135,9 +137,9 @@ void Verifier::Impl::add_tie(const NumberedRay& ray, RegionDifference difference
     ++kind->rays;
 }
 
-/// A tie is decided, too, wherever all rays around it meet the same: a ray that runs in a face may be in the solid or
-/// not, but where the solid lies on both sides of the face, it is within. Finer moves than the corners' are asked, so
-/// that one of them is within any edge that the ray may touch.
+/// Decides ties, too, where all rays around meet the same. A ray that runs in a face may be in the solid or not; but if
+/// the solid lies on both sides of the face, the ray is within. The moves are finer than the corners', so that one of
+/// them is within any edge that the ray may touch.
 void Verifier::Impl::judge_ties(const std::vector<Ray>& rays, std::vector<Judged>& judged,
                                 const std::vector<RayPartitions>& found) {
     std::vector<std::size_t> suspects;
@@ -164,7 +166,7 @@ void Verifier::Impl::judge_ties(const std::vector<Ray>& rays, std::vector<Judged
     for (const std::size_t i : suspects) judged[i].tie = false;
 }
 
-/// The distances of a decided ray whose regions are right.
+/// Measures the distances of a decided ray whose regions are right.
 void Verifier::Impl::measure(const std::vector<Partition>& found, const Judged& judged, const NumberedRay& ray) {
     const std::vector<Partition>& exact = judged.answer.partitions;
     const Blur blur = blur_of(ray.ray);
@@ -204,7 +206,7 @@ Verifier::Verifier(const Scene& scene, const std::vector<std::string>& objects, 
     Impl& impl = *impl_;
     impl.settings = settings;
     Settings own = settings;
-    own.wait_for_device = true;  // what is verified is the device
+    own.wait_for_device = true;  // the device is verified
     own.progress = [&impl](double fraction) { return impl.report(fraction); };
     if (!settings.reference) prepare_devices(own);
     const Model model(scene, objects, own);
@@ -256,7 +258,7 @@ void Verifier::shoot(const std::vector<Ray>& rays) {
     impl.progress = own.of_host(impl.settings.progress);
     const double share = 1.0 / static_cast<double>(1 + corners + impl.other_tolerances.size() + 1);
     impl.done = 0;
-    // Those in 113 bits take nearly all of the time.
+    // The rays in 113 bits take nearly all of the time.
     const std::vector<RayPartitions> on_reference = impl.shoot(*impl.reference, rays, share / 2);
     std::vector<RayPartitions> on_device;
     if (impl.device) on_device = impl.shoot(*impl.device, rays, share / 2);

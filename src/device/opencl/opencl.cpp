@@ -113,7 +113,8 @@ void keep_for_ever(std::shared_ptr<const void> memory) {
 
 namespace {
 
-/// A wait of the host that ends. A wait within the driver, which does not, tells of the event at once when it is done.
+/// The host's wait, which has a time limit. A wait within the driver has none, but returns as soon as the event is
+/// done.
 class Wait {
 public:
     explicit Wait(const Driver& driver) : driver_(driver), begin_(Clock::now()) {}
@@ -140,7 +141,7 @@ void flush_queue_of(const Event& event) {
 void wait_for(const Event& event) {
     if (!event) return;
     if (event.cl().patience > 0 && !is_done(event)) {
-        constexpr double at_once_ms = 2;  // as drivers do, for what takes no longer
+        constexpr double at_once_ms = 2;  // as drivers do, for commands that take no longer
         flush_queue_of(event);
         for (const Wait wait(event.cl()); !is_done(event) && wait.ms() < at_once_ms;) {
             wait.check();

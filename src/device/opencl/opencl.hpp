@@ -1,4 +1,4 @@
-// The ground under src/device: OpenCL's handles freed by scope, its calls checked by name, its events timed.
+// OpenCL for src/device: its handles are freed by scope, its calls checked by name, its events timed.
 #pragma once
 
 #include <atomic>
@@ -15,32 +15,32 @@ namespace csgrt {
 /// OpenCL's name of an error code, "CL_OUT_OF_RESOURCES"; "an unknown error" for a code of no known meaning.
 const char* opencl_error_name(cl_int code) noexcept;
 
-/// Throws unless `code` is CL_SUCCESS: "CALL failed: NAME (number)" with Status::out_of_memory where the code says that
-/// memory ran out, else Status::device_fault. `call` says which call, and for what: "clEnqueueReadBuffer (pixels)".
+/// Throws unless `code` is CL_SUCCESS: "CALL failed: NAME (number)", with Status::out_of_memory if the code says that
+/// memory ran out, else Status::device_fault. `call` names the call and its object: "clEnqueueReadBuffer (pixels)".
 void check(cl_int code, std::string_view call);
 
-/// The functions that drive a device, and how long it may take.
+/// The functions that drive a device, and the time limit of its answers.
 struct Driver : OpenCl {
     Driver(const OpenCl& functions, std::string name, double seconds)
         : OpenCl(functions), table(&functions), device(std::move(name)), patience(seconds) {}
 
     /// Throws Error (device_fault) if the device is lost.
     void check_lost() const;
-    /// From now on it is, and nothing is asked of its driver any more, which might wait for ever. Throws as
-    /// check_lost().
+    /// Declares the device lost: nothing is asked of its driver any more, which might wait for ever. Throws as
+    /// check_lost() does.
     [[noreturn]] void give_up() const;
 
-    const OpenCl* table;                       ///< what this is a copy of
+    const OpenCl* table;                       ///< the table that this is a copy of
     std::string device;                        ///< its name
-    double patience;                           ///< seconds that the host waits for an answer; 0: any time
-    mutable std::atomic<bool> is_lost{false};  ///< it took longer, or memory ended in it
+    double patience;                           ///< seconds that the host waits for an answer; 0: without a limit
+    mutable std::atomic<bool> is_lost{false};  ///< it took longer, or its memory ran out
 };
 
-/// Keeps for ever what a lost device may still read or write.
+/// Keeps for ever memory that a lost device may still read or write.
 void keep_for_ever(std::shared_ptr<const void> memory);
 
-/// Owns one OpenCL object, which the table's function `release` frees, but not of a lost device: its driver might wait.
-/// That never throws: what could be done about it?
+/// Owns one OpenCL object. The table's function `release` frees it, except if the device is lost: its driver might
+/// wait. Freeing never throws, since nobody could react.
 template <class T, cl_int (*OpenCl::*release)(T)>
 class Handle {
 public:
@@ -57,7 +57,7 @@ public:
     }
 
     T get() const noexcept { return object_; }
-    const Driver& cl() const noexcept { return *cl_; }  ///< that made it; not of an empty handle
+    const Driver& cl() const noexcept { return *cl_; }  ///< of the device that made it; not for an empty handle
     explicit operator bool() const noexcept { return object_ != nullptr; }
 
 private:
@@ -69,20 +69,21 @@ using Context = Handle<cl_context, &OpenCl::ReleaseContext>;
 using Queue = Handle<cl_command_queue, &OpenCl::ReleaseCommandQueue>;
 using Memory = Handle<cl_mem, &OpenCl::ReleaseMemObject>;
 
-/// Something that the device was told to do. Empty: there was nothing to do.
+/// A command that the device was given. Empty: there was nothing to do.
 using Event = Handle<cl_event, &OpenCl::ReleaseEvent>;
 
-/// Waits until it is done; an empty event is. Throws Error (device_fault, out_of_memory) if the command failed, and
-/// (device_fault) if the driver's patience ends before: then the device is lost. So do all waits.
+/// Waits until the command is done; an empty event is done. Throws Error (device_fault, out_of_memory) if the command
+/// failed, and (device_fault) if the time limit ends before: then the device is lost. All other waits throw the same.
 void wait_for(const Event& event);
-/// The same by looking at it now and then: a thread that waits within NVIDIA's driver slows others that queue commands
-/// (measured: docs/experiments.md). May return some ten microseconds late.
+/// Waits by polling: a thread that waits within NVIDIA's driver slows others that queue commands (measured:
+/// docs/experiments.md). May return some ten microseconds late.
 void wait_patiently(const Event& event);
-/// Whether it is done, or has failed, which a wait for it then tells.
+/// Whether the command is done, or has failed, which a wait for it then reports.
 bool is_done(const Event& event);
-/// Waits as patiently until one of several is_done(), which are of one device.
+/// Waits by polling until one of several events of one device is_done().
 void wait_for_one(std::span<const Event* const> events);
-/// The same, whether it failed or not: the memory that it needs may go, if the device is not lost.
+/// Waits until the command is done or has failed: the memory that it needs may then be freed, if the device is not
+/// lost.
 void wait_until_done(const Event& event) noexcept;
 
 /// Nanoseconds on a device's own clock, which all its queues share.
@@ -90,8 +91,8 @@ struct TimeSpan {
     std::uint64_t begin = 0, end = 0;
 };
 
-/// When the device ran a command; waits until it is done. Of no length for an empty event.
-/// Throws Error (device_fault, out_of_memory) if the command failed.
+/// The time when the device ran a command; waits until it is done. Of no length for an empty event. Throws Error
+/// (device_fault, out_of_memory) if the command failed.
 TimeSpan time_span(const Event& event);
 
 }  // namespace csgrt

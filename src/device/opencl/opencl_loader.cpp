@@ -17,7 +17,7 @@ constexpr const char* library_names[] = {"OpenCL.dll"};
 Library of_process() { return nullptr; }
 Library open_library(const char* name) { return LoadLibraryA(name); }
 void* symbol_of(Library library, const char* name) { return reinterpret_cast<void*>(GetProcAddress(library, name)); }
-// Windows says no more than a number.
+// Windows gives only a number.
 std::string last_words() { return {}; }
 std::string fault_of_opening(const char*) { return {}; }
 #else
@@ -27,7 +27,7 @@ constexpr const char* library_names[] = {"/System/Library/Frameworks/OpenCL.fram
 #else
 constexpr const char* library_names[] = {"libOpenCL.so.1", "libOpenCL.so"};
 #endif
-// Not RTLD_DEFAULT: what was found there may be closed.
+// RTLD_DEFAULT is not used: a library found there may be closed.
 Library of_process() { return dlopen(nullptr, RTLD_NOW); }
 Library open_library(const char* name) { return dlopen(name, RTLD_NOW | RTLD_LOCAL); }
 void* symbol_of(Library library, const char* name) { return dlsym(library, name); }
@@ -35,14 +35,15 @@ std::string last_words() {
     const char* const words = dlerror();
     return words ? words : "";
 }
-/// Empty if the library itself is not there; what it lacks, say a library of its own, is a fault.
+/// The fault of opening a library. Empty if the library itself is missing; it is a fault if another library that it
+/// needs is.
 std::string fault_of_opening(const char* name) {
     const std::string fault = last_words();
     return fault.starts_with(std::string(name) + ": cannot open shared object file") ? "" : fault;
 }
 #endif
 
-/// The name of the first function that it lacks; empty if none.
+/// Fills the table. Returns the name of the first missing function; empty if none.
 std::string fill(Library library, OpenCl& functions) {
     std::string missing;
 #define CSGRT_FILL(name)                                                                         \
@@ -77,7 +78,7 @@ OpenClLoader open_loader() {
 }  // namespace
 
 const OpenClLoader& opencl_loader() {
-    static const auto& loader = *new const OpenClLoader(open_loader());  // for threads that see exit(), too
+    static const auto& loader = *new const OpenClLoader(open_loader());  // never destroyed: threads may outlive exit()
     return loader;
 }
 

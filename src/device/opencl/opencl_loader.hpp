@@ -1,4 +1,4 @@
-// The OpenCL loader of the system, opened when it is first needed.
+// OpenCL loader of the system, opened when it is first needed.
 #pragma once
 
 #include <string>
@@ -8,15 +8,15 @@
 namespace csgrt {
 
 struct OpenClLoader {
-    const OpenCl* functions = nullptr;  ///< null: there is none that can be used
-    std::string fault;                  ///< why; empty if none is installed
+    const OpenCl* functions = nullptr;  ///< null: there is no usable loader
+    std::string fault;                  ///< the reason; empty if none is installed
 };
 
 /// Takes the OpenCL that the process has already (its own, or a tool's), else opens the library that drivers install.
 /// Once in a process; any thread.
 const OpenClLoader& opencl_loader();
 
-/// What the system said of the last library that this thread could not load; empty: nothing since the last question.
+/// The system's message about the last library that this thread could not load; empty: nothing since the last call.
 std::string last_load_fault();
 
 }  // namespace csgrt

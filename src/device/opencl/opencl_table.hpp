@@ -1,6 +1,6 @@
-// The functions of OpenCL that csgrt calls, as a table. Two things fill it: the OpenCL loader, opened when it is first
-// needed (opencl_loader.hpp), and the native device, whose kernels are in this library (native/driver.hpp). What calls
-// through a table does not know which.
+// OpenCL table: the functions of OpenCL that csgrt calls. There are two tables: that of the OpenCL loader, opened when
+// it is first needed (opencl_loader.hpp), and that of the native device, whose kernels are in this library
+// (native/driver.hpp). Callers do not know which table they use.
 #pragma once
 
 #include <CL/cl.h>

@@ -1,12 +1,13 @@
-// The kernels on the host in double once more, for x86 processors that have fma as an instruction: the same bits,
-// without a call of the C library for each.
+// The kernels on the host in double once more, for x86 processors with an fma instruction: the same bits, without a
+// call of the C library for each fma.
 #include "reference/precision/double_fma.hpp"
 
 #ifdef CSGRT_DOUBLE_FMA
 #include "kernel_host/kernels.hpp"
 #include "reference/reference_kernels.hpp"
 
-// The kernels' own functions alone: what they share with other files must run on any processor.
+// The pragma covers the kernels' own functions alone: functions that they share with other files must run on any
+// processor.
 #ifdef __clang__
 #pragma clang attribute push(__attribute__((target("fma"))), apply_to = function)
 #else
@@ -21,7 +22,7 @@
 
 namespace csgrt::fused {
 
-using namespace kernel;  // records, and functions so small that they become part of those that call them
+using namespace kernel;  // records, and functions so small that they are inlined
 
 #include "../kernels/traversal/camera.h"
 #include "../kernels/geometry/collect.h"

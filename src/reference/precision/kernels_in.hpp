@@ -1,6 +1,6 @@
-// kernels/ once more, in the namespace CSGRT_KERNELS and with CSGRT_NUMBERS: for the one file that includes this.
-// What src/compile has brought of it in double comes first, and its guards are lifted. Numbers of many kinds
-// meet in that source, and warnings about narrowing would be about the other kinds.
+// The kernels once more, in the namespace CSGRT_KERNELS and with CSGRT_NUMBERS, for the one file that includes this.
+// The headers that src/compile has included in double come first, and their guards are lifted. Numbers of many kinds
+// meet in this source, and warnings about narrowing would be about the other kinds.
 #include <cmath>
 #include <limits>
 

@@ -1,5 +1,5 @@
-// HostKernels and ReferenceKernels over the kernels in the namespace CSGRT_KERNELS, made by CSGRT_MAKE_KERNELS: the
-// body of the one file that includes this.
+// HostKernels and ReferenceKernels over the kernels in the namespace CSGRT_KERNELS, made by CSGRT_MAKE_KERNELS. This is
+// the body of the one file that includes it.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -20,12 +20,12 @@ namespace k = CSGRT_KERNELS;
 using k::real;
 using k::wide;
 
-// ---- Records from those in double. A table that is the same in both is not copied. ----
+// ---- Conversion of records from double. A table that is the same in both is not copied. ----
 
 template <class To, class From>
 using Converted = std::conditional_t<std::is_same_v<To, From>, std::span<const From>, std::vector<To>>;
 
-/// The record in this precision: it begins with `numbers` that are `wide`, and the rest is the same in all precisions.
+/// Converts a record: it begins with `numbers` numbers that are `wide`, and its rest is the same in all precisions.
 template <class To, std::size_t numbers, class From>
 To converted(const From& record) {
     constexpr std::size_t own = numbers * sizeof(wide), other = numbers * sizeof(double);
@@ -46,7 +46,7 @@ real convert(double x) { return static_cast<real>(x); }
 [[maybe_unused]] k::LightRecord convert(const kernel::LightRecord& l) { return converted<k::LightRecord, 8>(l); }
 k::MaterialRecord convert(const kernel::MaterialRecord& m) { return std::bit_cast<k::MaterialRecord>(m); }
 
-// In single precision a ray may meet a solid a little beside where it is: the boxes make room for that, so that a
+// Boxes are larger in single precision. There a ray may meet a solid a little beside its position; with larger boxes a
 // device finds everything that the reference finds.
 [[maybe_unused]] k::BvhNode convert_node(const kernel::BvhNode& n) {
     k::BvhNode node = std::bit_cast<k::BvhNode>(n);
@@ -99,7 +99,7 @@ std::vector<kernel::End> ends_of(std::vector<End>&& ends) {
     return result;
 }
 
-/// An empty list, with the memory of one that is done with if that is of the same kind.
+/// An empty list, in the memory of a used list if its type is the same.
 template <class To, class From>
 std::vector<To> again([[maybe_unused]] std::vector<From>&& used, To*) {
     if constexpr (std::is_same_v<To, From>) {
@@ -295,8 +295,8 @@ public:
     }
 
 private:
-    /// 113 bits are slow: solids whose boxes the ray misses are passed over. That a box holds its solid is seen by the
-    /// reference in double.
+    /// Solids whose boxes the ray misses are passed over: 113 bits are slow. The reference in double checks that boxes
+    /// hold their solids.
     template <class Meet>
     void meet_boxes(const k::Frame& frame, const k::ray3& r, real t_min, const Meet& meet) const {
         for (std::uint32_t solid = 0; solid < frame.unbounded_count; ++solid) meet(solid);

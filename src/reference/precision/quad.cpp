@@ -1,4 +1,4 @@
-// The kernels on the host in 113 bits, to see what rounding does to the others.
+// The kernels on the host in 113 bits, to show the effect of rounding on the others.
 #include "reference/quad_math.hpp"
 
 #define CSGRT_NUMBERS        \

@@ -1,4 +1,4 @@
-// The kernels on the host in single precision, all of it, in the world's coordinates.
+// The kernels on the host in single precision throughout, in the world's coordinates.
 #define CSGRT_NUMBERS   \
     using real = float; \
     using wide = float;
