@@ -33,7 +33,7 @@ Scene mended(const Scene& scene) {
     Names names(scene);
     std::vector<Warning> warnings;
     validate(scene, names, {}, false, warnings);
-    // For legs of objects that are there: they close a cycle, or their matrices are no places.
+    // The empty combination replaces members that exist: they close a cycle, or their matrices are not transforms.
     std::string hole = "left_out";
     while (names.find(hole) != Names::none) hole += "_";
     Scene result = scene;

@@ -1,4 +1,4 @@
-// A lenient scene as a strict one.
+// Repair: a lenient scene as a strict one.
 #pragma once
 
 #include <csgrt/scene.hpp>
@@ -6,7 +6,7 @@
 namespace csgrt {
 
 /// The scene with an empty combination for everything that its top objects use and that is left out of them. Solids of
-/// unknown types stay what they are.
+/// unknown types stay.
 Scene mended(const Scene& scene);
 
 }  // namespace csgrt

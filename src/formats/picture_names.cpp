@@ -1,4 +1,4 @@
-// What the numbers in a picture mean, for its header.
+// Picture names: the meaning of a picture's ids, for its header.
 #include <csgrt/renderer.hpp>
 
 #include <cstddef>
@@ -12,14 +12,14 @@ namespace csgrt {
 
 namespace {
 
-/// {"17": "/all.g/x.r"} of the numbers that occur; no attribute where the picture has no such channel.
+/// Adds {"17": "/all.g/x.r"} of the ids that occur; no attribute if the picture has no such channel.
 template <class Infos, class Name>
 void describe(Image& image, const char* channel, const char* attribute, const Infos& infos, Name name) {
     if (!image.has_channel(channel)) return;
     std::vector<bool> occurs(infos.size() + 1);
     std::uint32_t last = 0;
     for (const std::uint32_t number : image.ids(channel)) {
-        if (number == last) continue;  // as most are
+        if (number == last) continue;  // as for most pixels
         last = number;
         if (number < occurs.size()) occurs[number] = true;
     }

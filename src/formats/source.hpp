@@ -1,4 +1,4 @@
-// A file in memory, how places in it are told, and what a reader found wrong in it. Shared by every format.
+// Sources: a file in memory, the places in it, and a reader's findings. Shared by every format.
 #pragma once
 
 #include <cstddef>
@@ -11,27 +11,27 @@
 
 namespace csgrt {
 
-/// Largest file that is read. Real scenes are a hundred times smaller; an endless device must not fill the memory.
+/// The largest file that is read. Real scenes are a hundred times smaller; an endless device must not fill the memory.
 inline constexpr std::size_t max_file_bytes = std::size_t{256} << 20;
 
 /// The bytes of a file. Throws Error (file) if it cannot be read or is larger than max_file_bytes.
 std::string read_file(const std::string& path);
 
-/// Of files that a model names: its own folder, and `allowed`.
+/// The folders of files that a model may name: its own folder, and `allowed`.
 std::vector<std::string> file_folders_of(const std::string& model, const std::vector<std::string>& allowed);
 
-/// The bytes of standard input, likewise.
+/// The bytes of standard input. Throws as read_file() does.
 std::string read_standard_input();
 inline constexpr const char* standard_input = "standard input";
 
-/// What a finding needs to know of its file. Offsets are bytes from the file's start.
+/// A file, as far as a finding needs it. Offsets are bytes from the file's start.
 class Source {
 public:
     virtual Place place(std::size_t offset, std::string object = {}) const = 0;
-    /// What stands at the offset, for a person to see; empty if that would help nobody.
+    /// The text at the offset, for a person; empty if it would not help.
     virtual std::string excerpt(std::size_t offset) const = 0;
 
-    /// The files that it may name lie below these. None: it may name no file, as a scene from memory.
+    /// The folders below which the files that it may name lie. None: it may name no file, as a scene from memory.
     std::vector<std::string> file_folders;
 
 protected:
@@ -46,32 +46,32 @@ struct Fault {
     std::string suggestion;
 };
 
-/// What was done about a fault of an attribute or a setting that is borne.
+/// The action for a tolerated fault of an attribute or a setting.
 inline constexpr const char* passed_over = "passed over";
 
-/// What is wrong in one file, reported all at once.
+/// The faults of one file, reported all at once.
 class Findings {
 public:
-    /// Of a lenient scene, what can be borne goes to `borne`.
+    /// Faults that a lenient scene tolerates go to `borne`.
     explicit Findings(const Source& source, std::vector<Warning>* borne = nullptr) : source_(source), borne_(borne) {}
 
     void add(std::size_t offset, std::string object, std::string message, std::string suggestion = {});
     void add(Fault fault, std::string object) {
         add(fault.offset, std::move(object), std::move(fault.message), std::move(fault.suggestion));
     }
-    /// A fault that leaves the rest of the file its meaning: a warning that ends in `done`, or a finding if the scene
-    /// is strict.
+    /// Tolerates a fault after which the rest of the file keeps its meaning: adds a warning that ends in `done`, or a
+    /// finding if the scene is strict.
     void bear(Fault fault, const std::string& object, const char* done);
     bool is_lenient() const noexcept { return borne_ != nullptr; }
     Place place(std::size_t offset, const std::string& object) const { return source_.place(offset, object); }
     bool empty() const noexcept { return list_.empty(); }
-    /// What comes now is counted and not shown: it needs no suggestion.
+    /// Whether further findings are counted and not shown: they need no suggestion.
     bool full() const noexcept { return list_.full(); }
-    /// The reader gives up: there may be more than it found.
+    /// Notes that the reader gives up: there may be more than it found.
     void stop() noexcept { list_.stop(); }
 
-    /// Throws Error (scene) with the findings, in the order of the file, and how many more there are; does nothing if
-    /// there is none.
+    /// Throws Error (scene) with the findings, in the order of the file, and the number of further ones; does nothing
+    /// if there are none.
     void throw_if_any();
 
 private:

@@ -1,4 +1,4 @@
-// A text file in memory, and places in it. Shared by every text format.
+// Text source: a text file in memory, and places in it. Shared by every text format.
 #pragma once
 
 #include <cstddef>
@@ -17,18 +17,18 @@ public:
     /// Reads a file whole. Throws Error (file) if it cannot be read or is larger than max_file_bytes.
     static TextSource read(const std::string& path);
 
-    /// `name` is what diagnostics call the file.
+    /// `name`: the file's name in diagnostics.
     TextSource(std::string name, std::string text);
 
     const std::string& name() const noexcept { return name_; }
     std::string_view text() const noexcept { return text_; }
-    /// Where the text begins: behind a byte order mark.
+    /// The beginning of the text: behind a byte order mark.
     std::size_t begin() const noexcept { return text_.starts_with(byte_order_mark) ? byte_order_mark.size() : 0; }
 
     /// Line and column (in bytes, from 1) of an offset; `object` becomes the pointer.
     Place place(std::size_t offset, std::string object = {}) const override;
 
-    /// The line around an offset, shortened to what a terminal shows, a newline, and a caret under the offset.
+    /// The line around an offset, shortened to the width of a terminal, a newline, and a caret under the offset.
     std::string excerpt(std::size_t offset) const override;
 
 private:

@@ -1,4 +1,4 @@
-// Editors on Windows put it before a text in UTF-8. It is no part of the text.
+// Byte order mark: editors on Windows put it before a text in UTF-8. It is not a part of the text.
 #pragma once
 
 #include <string_view>

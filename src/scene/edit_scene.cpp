@@ -16,18 +16,18 @@ namespace {
     throw Error(Status::usage, {Diagnostic{.message = what, .suggestion = suggestion}});
 }
 
-/// Where a path leads. `least`: parts that it must have.
+/// The objects along a path. `least`: the number of parts that it must have.
 ObjectPath follow(const Scene& scene, const Names& names, const std::string& path, std::size_t least = 1) {
     ObjectPath found = find_path(scene, names, path);
     if (found.steps.empty()) refuse(found.fault, found.suggestion);
-    // An object whose name is the whole path stands alone.
+    // An object whose name is the whole path is used by no combination.
     if (found.steps.size() < least) refuse("'" + path + "' is no leg of a combination: give the path that leads to it");
     return found;
 }
 
 Tree& tree_of(Scene& scene, std::uint32_t object) { return std::get<Combination>(scene.objects[object]).tree; }
 
-/// Copies what an instance shares with others.
+/// Copies objects that an instance shares with others.
 class Unsharer {
 public:
     Unsharer(Scene& scene, const Names& names, const std::vector<std::string>& rendered)
@@ -40,7 +40,7 @@ public:
                 is_rendered_[path.object()] = true;
     }
 
-    /// The combinations of a path, but for the last step's object, get no other place. Changes the steps.
+    /// Makes the combinations of a path unshared, except the last step's object. Changes the steps.
     void unshare(std::vector<ObjectPath::Step>& steps) {
         if (users_[steps.front().object] > 0) give_others_a_copy(steps.front().object);
         for (std::size_t i = 1; i + 1 < steps.size(); ++i) {
@@ -55,7 +55,7 @@ public:
     }
 
 private:
-    /// The object stays what a path begins with; all legs that lead to it lead to a copy.
+    /// Keeps the object at the head of paths; all members that name it get a copy instead.
     void give_others_a_copy(std::uint32_t object) {
         const std::uint32_t copy = copied(object);
         for (std::uint32_t user = 0; user < scene_.objects.size(); ++user) {
@@ -67,7 +67,7 @@ private:
         users_[copy] = std::exchange(users_[object], 0);
     }
 
-    /// What an object is a copy of, or itself.
+    /// The object that an object is a copy of, or itself.
     std::uint32_t original(std::uint32_t object) const {
         const std::size_t count = scene_.objects.size() - origin_.size();
         return object < count ? object : origin_[object - count];
@@ -93,7 +93,7 @@ private:
         return static_cast<std::uint32_t>(scene_.objects.size() - 1);
     }
 
-    /// A leg leads to another object under its old name.
+    /// Makes a member name another object under the member's old name.
     void lead_to(std::uint32_t user, std::uint32_t node, std::uint32_t object) {
         TreeNode& leg = tree_of(scene_, user).nodes[node];
         if (leg.name.empty()) leg.name = names_.leg_name(original(user), node);
@@ -102,16 +102,16 @@ private:
 
     Scene& scene_;
     const Names& names_;                ///< of the scene without copies
-    std::vector<std::uint32_t> users_;  ///< legs that lead to each object
+    std::vector<std::uint32_t> users_;  ///< members that name each object
     std::vector<bool> is_rendered_;
     std::vector<std::uint32_t> origin_;  ///< of the copies, which are the last objects
     std::unordered_set<std::string> taken_;
 };
 
-/// The tree without a leaf.
+/// Removes a leaf from the tree.
 void remove_leaf(Tree& tree, std::uint32_t leaf) {
     struct Operand {
-        std::size_t first;  ///< node of the new tree
+        std::size_t first;  ///< number of the node in the new tree
         bool is_gone;
     };
     std::vector<TreeNode> kept;
@@ -154,7 +154,7 @@ void remove_leg(Scene& scene, const std::string& path) {
     const std::vector<ObjectPath::Step> steps = follow(scene, names, path, 2).steps;
     const std::uint32_t parent = steps[steps.size() - 2].object, leaf = steps.back().node;
     Tree& tree = tree_of(scene, parent);
-    for (std::uint32_t i = 0; i < tree.nodes.size(); ++i)  // what is numbered keeps its number
+    for (std::uint32_t i = 0; i < tree.nodes.size(); ++i)  // numbered names stay
         if (tree.nodes[i].op == Operator::leaf && names.leg_name(parent, i) != tree.nodes[i].object)
             tree.nodes[i].name = names.leg_name(parent, i);
     remove_leaf(tree, leaf);

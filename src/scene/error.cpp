@@ -6,7 +6,7 @@ namespace csgrt {
 
 namespace {
 
-/// Every line of `text` on a line of its own, after `indent`.
+/// Appends every line of `text` on a line of its own, after `indent`.
 void append_indented(std::string& out, const std::string& text, const char* indent) {
     std::size_t begin = 0;
     while (begin <= text.size()) {
@@ -19,7 +19,7 @@ void append_indented(std::string& out, const std::string& text, const char* inde
     }
 }
 
-/// "file:line:column", "file: byte offset", or as much of it as is known.
+/// The text "file:line:column", "file: byte offset", or as much of it as is known.
 std::string position(const Place& place) {
     std::string out = place.file;
     if (place.line > 0) {

@@ -8,7 +8,7 @@ namespace csgrt {
 
 namespace {
 
-/// Bytes of a line that are shown, and how many of them stand before a place that is farther to the right.
+/// Bytes of a line that are shown, and how many of them stand before a column that is farther to the right.
 constexpr std::size_t shown = 110, shown_before = 70;
 
 bool continues_character(char c) { return (static_cast<unsigned char>(c) & 0xC0) == 0x80; }

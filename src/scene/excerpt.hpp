@@ -1,4 +1,4 @@
-// The line of a file that a diagnostic shows, with a caret under the place.
+// Excerpt: the line of a file that a diagnostic shows, with a caret under the place.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +13,7 @@ namespace csgrt {
 /// column.
 std::string excerpt(std::string_view line, std::size_t column);
 
-/// The same for a finding that is made after the file was read; empty if the place has no line or the file is gone.
+/// The excerpt for a finding that is made after the file was read; empty if the place has no line or the file is gone.
 std::string excerpt(const Place& place);
 
 }  // namespace csgrt

@@ -9,14 +9,14 @@ namespace csgrt {
 
 namespace {
 
-/// What each place of a solid takes, in balls of 6 microseconds and 1.6 kB. From measurements.
+/// The cost of each instance of a solid, in balls of 6 microseconds and 1.6 kB. From measurements.
 struct Cost {
-    std::uint64_t parts = 0;  ///< grows with the file that they are in
+    std::uint64_t parts = 0;  ///< grows with the file that has the parts
     std::uint64_t more = 0;   ///< grows faster
 };
 
 struct CostOf {
-    static constexpr std::uint64_t many = 64;  ///< triangles or cells: a place has a box around them
+    static constexpr std::uint64_t many = 64;  ///< triangles or cells: an instance has a box around them
 
     Cost operator()(const Hrt&) const { return {150}; }
     Cost operator()(const Arbn& s) const { return {2 * s.planes.size(), s.planes.size() * s.planes.size() / 1300}; }
@@ -46,7 +46,7 @@ struct CostOf {
     }
 };
 
-/// What the parts were copied from, if the same may have been copied for other solids.
+/// The source that the parts were copied from, if they may have been copied for other solids, too.
 std::string_view source_of(const Shape& shape) {
     const auto bytes_of = [](const auto& cells) {
         return std::string_view(reinterpret_cast<const char*>(cells.data()), cells.size() * sizeof cells[0]);
@@ -72,7 +72,7 @@ InstanceLimit::InstanceLimit(const Scene& scene, std::uint64_t max_instances)
       allowed_(max_instances > 0 ? std::min(max_instances, Limits::most_instances) : Limits::instances),
       counts_own_(max_instances == 0) {}
 
-// Each object once is no expansion: what that takes grows with the file.
+// Each object once is no expansion: its cost grows with the file.
 bool InstanceLimit::allows(double count) {
     if (counts_own_ && count > static_cast<double>(allowed_)) {
         counts_own_ = false;

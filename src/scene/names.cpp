@@ -44,7 +44,7 @@ std::uint32_t Names::find(std::string_view name, std::uint32_t hash) const {
     }
 }
 
-/// Of most trees there is nothing to say. `sorted`: memory that is used again.
+/// Finds the members' names in a tree; most trees need none. `sorted`: memory that is used again.
 void Names::name_legs(std::uint32_t object, const std::vector<TreeNode>& nodes, std::vector<std::uint32_t>& sorted,
                       LegNames& found) const {
     const std::uint32_t* const own = children_.data() + first_child_[object];
@@ -121,7 +121,7 @@ Names::Names(const Scene& scene) : scene_(scene), first_child_(scene.objects.siz
         for (std::size_t i = first; i < last; ++i) {
             if (kinds_[i] >= Kind::solid) continue;
             const std::vector<TreeNode>& nodes = std::get<Combination>(scene.objects[i]).tree.nodes;
-            // First all hashes: the memory where their names are found is asked for meanwhile.
+            // First all hashes are computed: meanwhile the memory of their names is prefetched.
             std::uint32_t* const own = children_.data() + first_child_[i];
             for (std::size_t k = 0; k < nodes.size(); ++k) {
                 if (nodes[k].op != Operator::leaf) continue;

@@ -1,4 +1,4 @@
-// The objects of a scene by name, and what each leaf of their trees names, looked up once for all.
+// Names: the objects of a scene by name, and the object that each leaf of their trees names, looked up once for all.
 #pragma once
 
 #include <cstdint>
@@ -13,46 +13,47 @@
 
 namespace csgrt {
 
-/// "name@2": the second of that name.
+/// "name@2": the second object of the name.
 std::string numbered(std::string name, std::uint32_t number);
 
-/// Refers to the scene, which must neither change nor go while this is used.
+/// An index of names. It refers to the scene, which must neither change nor be destroyed while it is used.
 class Names {
 public:
     static constexpr std::uint32_t none = 0xffffffff, operation = 0xfffffffe, left_out = 0xfffffffd;
 
     explicit Names(const Scene& scene);
 
-    /// The first object of that name; none: there is none.
+    /// The first object of a name; none: there is none.
     std::uint32_t find(std::string_view name) const { return find(name, hash_of(name)); }
     /// The object that a leaf names: node `node` of the tree of combination `object`.
     std::uint32_t child(std::uint32_t object, std::size_t node) const { return children_[first_child_[object] + node]; }
-    /// Node `node` of that tree.
+    /// Node `node` of the tree of combination `object`.
     const TreeNode& node(std::uint32_t object, std::size_t node) const {
         return std::get<Combination>(scene_.objects[object]).tree.nodes[node];
     }
-    /// What a leaf is called in paths (TreeNode::name): no two of a tree have the same.
+    /// The name of a leaf in paths (TreeNode::name): no two leaves of a tree have the same.
     const std::string& leg_name(std::uint32_t object, std::size_t node) const {
         const auto found = leg_names_.find(std::pair(object, static_cast<std::uint32_t>(node)));
         return found != leg_names_.end() ? found->second : this->node(object, node).object;
     }
-    /// Whether two paths may be the same though their legs differ: a name holds a '/', or what looks like a number.
+    /// Whether two paths may be the same though their members differ: a name holds a '/', or an end that looks like a
+    /// number.
     bool has_doubtful_names() const { return has_doubtful_names_; }
-    /// The children of all nodes of a combination's tree, which are walked several times and take far less memory than
-    /// the objects: `operation` for what is no leaf, `left_out` for a leaf that is the empty set. None for a solid.
+    /// The children of all nodes of a combination's tree. They are walked several times and take far less memory than
+    /// the objects. `operation`: not a leaf; `left_out`: a leaf that is the empty set. Empty for a solid.
     std::span<const std::uint32_t> children(std::uint32_t object) const {
         return std::span(children_).subspan(first_child_[object], first_child_[object + 1] - first_child_[object]);
     }
-    /// Told without the object, which takes far more memory.
+    /// The kind of an object, known without the object, which takes far more memory.
     enum class Kind : std::uint8_t { combination, region, air_region, solid, composite, unsupported, left_out };
     Kind kind(std::uint32_t object) const { return kinds_[object]; }
     bool is_solid(std::uint32_t object) const { return kinds_[object] >= Kind::solid; }
-    /// From now on the object is the empty set, or one leaf of a tree is.
+    /// Makes the object, or one leaf of a tree, the empty set.
     void leave_out(std::uint32_t object) { kinds_[object] = Kind::left_out; }
     void leave_out(std::uint32_t object, std::size_t node) { children_[first_child_[object] + node] = left_out; }
-    /// Objects with names that others before them have.
+    /// Objects whose names objects before them have.
     const std::vector<std::uint32_t>& taken() const { return taken_; }
-    /// See csgrt::top_objects. What is left out by then uses nothing.
+    /// See csgrt::top_objects. Objects that are left out use nothing.
     std::vector<std::string> top_objects() const;
 
 private:
@@ -68,11 +69,12 @@ private:
     std::uint32_t find(std::string_view name, std::uint32_t hash) const;
 
     const Scene& scene_;
-    std::vector<Slot> slots_;  // a power of two of them, at most half of them taken
+    std::vector<Slot> slots_;  // a power of two of them, at most half of them in use
     std::vector<std::uint32_t> taken_;
-    std::vector<std::uint64_t> first_child_;  // one an object, and the end: where its tree's nodes begin in `children_`
+    std::vector<std::uint64_t> first_child_;  // one an object, and one more: the first of its tree's nodes in
+                                              // `children_`
     std::vector<Kind> kinds_;                 // one an object
-    LegNames leg_names_;                      // of legs that are not called as their objects
+    LegNames leg_names_;                      // of members whose names differ from their objects'
     bool has_doubtful_names_ = false;
     std::vector<std::uint32_t> children_;
 };

@@ -1,4 +1,4 @@
-// Objects as a person names them: "tor.r", or a way down to one of the places where it is used, "all.g/tor.r".
+// Object paths: objects as a person names them: "tor.r", or a path down to one of its instances, "all.g/tor.r".
 #pragma once
 
 #include <cstdint>
@@ -15,16 +15,17 @@ namespace csgrt {
 struct ObjectPath {
     struct Step {
         std::uint32_t object;
-        std::uint32_t node;  ///< the leaf that names it, of the tree of the step before; of the first step 0
+        std::uint32_t node;  ///< the leaf that names it, of the tree of the step before; 0 for the first step
     };
-    std::vector<Step> steps;  ///< the last one's object is what is named; none: there is a fault
+    std::vector<Step> steps;  ///< the last step's object is the named one; empty: there is a fault
     std::string fault, suggestion;
 
     std::uint32_t object() const { return steps.back().object; }
 };
 
-/// An object of the whole name, else the way down that the parts between '/' give; one at the front or the end does not
-/// matter. A part is what a leg is called (Names::leg_name): of several places of one object its name is the first's.
+/// Finds an object of the whole name, else the path that the parts between '/' give; a '/' at the front or the end has
+/// no effect. A part is the name of a member (Names::leg_name): of several members with one object, the object's own
+/// name is that of the first.
 ObjectPath find_path(const Scene& scene, const Names& names, const std::string& text);
 
 /// The object that a wrong name was probably meant to be; see did_you_mean.

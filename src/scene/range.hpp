@@ -1,4 +1,4 @@
-// Numbers so large or small that what is computed of them would overflow or vanish, and how they are refused.
+// Range: numbers so large or small that results would overflow or vanish, and the messages that refuse them.
 #pragma once
 
 #include <algorithm>
@@ -15,13 +15,13 @@ inline double largest(const Vec3& v) { return std::max({std::abs(v.x), std::abs(
 /// The shortest decimal that is read as the same double.
 std::string number_text(double x);
 
-/// The same, of six digits.
+/// The decimal of six digits.
 std::string rounded_text(double x);
 
 /// "the largest size and distance from the origin is 1e+15 mm"
 std::string length_limit();
 
-/// Why a ray cannot be shot; empty: it can. `in_direction`: which of its two vectors is at fault.
+/// The reason why a ray cannot be traced; empty: it can. `in_direction`: which of its two vectors is at fault.
 std::string ray_fault(const Vec3& origin, const Vec3& direction, bool& in_direction);
 
 }  // namespace csgrt

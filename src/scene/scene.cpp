@@ -28,7 +28,7 @@ Tree tree(std::string object, const Matrix& matrix) {
     return {{{.op = Operator::leaf, .object = std::move(object), .matrix = matrix}}};
 }
 
-/// One operator over both; of an empty operand, what is left of it.
+/// One operator over both trees; if one is empty, the rest.
 static Tree joined(Tree a, Operator op, Tree b) {
     if (b.nodes.empty()) return a;
     if (a.nodes.empty()) return op == Operator::union_ || op == Operator::xor_ ? std::move(b) : std::move(a);

@@ -1,4 +1,4 @@
-// The little vector algebra that the model's checks and readers need.
+// Vectors: the algebra that the model's checks and readers need.
 #pragma once
 
 #include <cmath>
@@ -20,7 +20,8 @@ inline Vec3 cross(const Vec3& a, const Vec3& b) {
 inline double length(const Vec3& a) { return std::hypot(a.x, a.y, a.z); }
 inline bool is_finite(const Vec3& a) { return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z); }
 
-/// Three vectors that surely make more than 1e-9 of the volume of a right-angled box; others may, too. Takes no roots.
+/// Do three vectors surely make more than 1e-9 of the volume of a right-angled box? False for some that do, too. Takes
+/// no roots.
 inline bool plainly_independent(const Vec3& a, const Vec3& b, const Vec3& c) {
     const double volume = dot(a, cross(b, c)), squares = dot(a, a) * dot(b, b) * dot(c, c);
     return squares > 1e-280 && volume * volume > 1e-18 * squares;
@@ -43,12 +44,12 @@ inline Matrix compose(const Matrix& outer, const Matrix& inner) {
     return m;
 }
 
-/// A vector this close to unit length is taken for one, as it stands.
+/// The difference from length 1 below which a vector is taken for a unit vector, unchanged.
 inline constexpr double unit_slack = 1e-9;
 inline bool is_unit(const Vec3& a) { return std::abs(length(a) - 1) <= unit_slack; }
 
-/// Three vectors whose box has less than this part of the volume of a right-angled one lie in a plane, as far as
-/// double precision can tell after they have been inverted.
+/// The part of a right-angled box's volume below which three vectors lie in a plane, as far as double precision can
+/// tell after their matrix has been inverted.
 inline constexpr double least_volume = 1e-10;
 
 inline bool dependent(const Vec3& a, const Vec3& b, const Vec3& c) {

@@ -1,4 +1,4 @@
-// The way down from an object through combinations, depth first, with a stack of its own.
+// Walk: from an object down through combinations, depth first, with a stack of its own.
 #pragma once
 
 #include <cstdint>
@@ -22,7 +22,7 @@ public:
         Level level;
     };
 
-    /// Below a combination. The visitor has
+    /// Walks below a combination. The visitor has
     ///     std::optional<Level> follow(const Open& parent, std::uint32_t node, std::uint32_t child)
     ///                                a leaf; `child` may be Names::none. No level: the walk does not go below it.
     ///     void operate(const Open& parent, std::uint32_t node)   an operator, behind its operands

@@ -1,4 +1,4 @@
-// BRL-CAD's text databases, as g2asc writes them.
+// Text databases of BRL-CAD, as g2asc writes them.
 #pragma once
 
 #include <string>
@@ -11,17 +11,17 @@ namespace csgrt {
 class TextSource;
 
 /// Reads an .asc file of either form. Throws Error: file if it cannot be read, scene with every finding if it is wrong,
-/// out_of_memory if the host cannot hold it. Solids that csgrt does not know become Unsupported. `lenient`: as if not
-/// LoadOptions::strict. `file_folders`: see LoadOptions.
+/// out_of_memory if the host cannot hold it. Solids that csgrt does not know become Unsupported. `lenient`: the
+/// opposite of LoadOptions::strict. `file_folders`: see LoadOptions.
 Scene read_brlcad_asc(const std::string& path, bool lenient = false, const std::vector<std::string>& file_folders = {});
 
-/// The same for a text in memory: v5 if it starts with a Tcl command, else v4.
+/// Reads a text in memory: v5 if it starts with a Tcl command, else v4.
 Scene parse_brlcad_asc(const TextSource& source, bool lenient = false);
 
-/// Release 4 and older: one record a line, named by its first letter.
+/// Reads release 4 and older: one record a line, named by its first letter.
 Scene parse_brlcad_asc_v4(const TextSource& source, bool lenient = false);
 
-/// Release 5 and newer: Tcl commands (title, units, color, put, attr).
+/// Reads release 5 and newer: Tcl commands (title, units, color, put, attr).
 Scene parse_brlcad_asc_v5(const TextSource& source, bool lenient = false);
 
 }  // namespace csgrt

@@ -1,4 +1,4 @@
-// Solids whose numbers stand one after another in BRL-CAD's databases, in the order of their descriptions.
+// Described solids: their numbers stand one after another in BRL-CAD's databases, in the order of their descriptions.
 #pragma once
 
 #include <functional>
@@ -9,7 +9,7 @@
 
 namespace csgrt {
 
-/// `vector` and `number` read the next one, and are told BRL-CAD's name of it.
+/// Reads a solid. `vector` and `number` read the next value; their argument is BRL-CAD's name of it.
 template <class S, class Vector, class Number>
 S read_described(Vector vector, Number number) {
     S s;

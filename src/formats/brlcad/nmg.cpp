@@ -1,10 +1,11 @@
-// Records of 26 kinds, kind after kind, each a row of 4-byte words, highest byte first; the first word is a magic
+// Nmg: records of 26 kinds, kind after kind, each a row of 4-byte words, highest byte first; the first word is a magic
 // number of four letters. Records refer to each other by number, counted from 1 through all kinds. A list is a word in
 // its head and one in each element, the number of the next; -1 is the head again.
 //
 //     model -> regions -> shells -> faceuses -> loopuses -> edgeuses -> vertexuse -> vertex -> vertex_g, 3 doubles
 //
-// Each face has two uses, one a side; that with orientation 1 looks out. So has each loop: 1 is an outline, 2 a hole.
+// Each face has two uses, one a side; the use with orientation 1 looks out. Each loop has two uses as well: 1 is an
+// outline, 2 a hole.
 #include "formats/brlcad/nmg.hpp"
 
 #include <bit>
@@ -35,7 +36,7 @@ constexpr std::size_t curved_face = 8, curved_edge = 15;
 constexpr std::uint32_t list_end = 0xffffffff;
 constexpr std::uint32_t same = 1, opposite = 2;  // orientations
 
-/// Words of the records, counted from the magic number.
+/// Positions of words in the records, counted from the magic number.
 constexpr std::size_t next = 1, model_regions = 2, region_shells = 5, shell_faceuses = 5, orientation = 5,
                       face_loopuses = 8, loop_edgeuses = 8, edge_vertexuse = 11, use_vertex = 4, vertex_point = 3;
 
@@ -61,7 +62,7 @@ public:
             return Unsupported{"nmg", "it has curved faces"};
         }
         if (counts_[model.number] != 1) fail(0, "the nmg is not one model");
-        // The elements of a list are told apart by how many there are: a list that is longer does not end.
+        // The elements of each list are counted: a list with more elements than records does not end.
         std::uint32_t regions = 0, shells = 0, faces = 0;
         for (auto r = link(model, 1, model_regions); r != list_end; r = step(region, r, regions)) {
             for (auto s = link(region, r, region_shells); s != list_end; s = step(shell, s, shells)) {
@@ -78,7 +79,7 @@ private:
         throw Fault{offset_ + step_ * at, std::move(message), {}};
     }
 
-    /// Where a record starts. It must be of the kind, by its number and its magic number.
+    /// The position of a record. It must be of the kind, by its number and its magic number.
     std::size_t record(const Kind& kind, std::uint32_t number) const {
         const std::uint64_t first = first_[kind.number];
         if (number < first || number >= first + counts_[kind.number]) {
@@ -98,7 +99,7 @@ private:
     std::uint32_t link(const Kind& kind, std::uint32_t number, std::size_t word) const {
         return word_at(record(kind, number) + 4 * word);
     }
-    /// The next element of a list; `seen` counts those of all lists of the kind.
+    /// The next element of a list; `seen` counts the elements of all lists of the kind.
     std::uint32_t step(const Kind& kind, std::uint32_t number, std::uint32_t& seen) const {
         if (++seen > counts_[kind.number]) {
             fail(record(kind, number), "a list of the nmg does not end, or stands in two others");
@@ -143,7 +144,7 @@ private:
     const NmgCounts& counts_;
     std::string_view bytes_;
     std::size_t offset_, step_;
-    std::array<std::uint64_t, 26> first_{}, begin_{};  ///< by kind: the first record's number, and where it starts
+    std::array<std::uint64_t, 26> first_{}, begin_{};  ///< by kind: the first record's number, and its position
     std::uint32_t loops_ = 0, edges_ = 0;              ///< seen so far
     std::unordered_map<std::uint32_t, std::uint32_t> vertices_;  ///< records to vertices of the solid
     Nmg nmg_;

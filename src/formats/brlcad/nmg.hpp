@@ -1,4 +1,4 @@
-// BRL-CAD's nmg as it stands on disk, the same in binary databases and in the older text ones.
+// Nmg on disk, as BRL-CAD writes it in binary databases and in the older text form.
 #pragma once
 
 #include <array>
@@ -10,11 +10,11 @@
 
 namespace csgrt {
 
-/// How many records of each kind there are.
+/// The number of records of each kind.
 using NmgCounts = std::array<std::uint32_t, 26>;
 
-/// The faces of all shells. `bytes` are the records, kind after kind. Throws Fault at `offset` plus `step` times the
-/// byte where something is wrong: a step of 0 for a text, whose bytes have no places of their own. An nmg with curved
+/// Reads the faces of all shells. `bytes`: the records, kind after kind. Throws Fault at `offset` plus `step` times the
+/// position of the wrong byte; `step` is 0 for a text, whose bytes have no positions of their own. An nmg with curved
 /// faces is Unsupported.
 Shape read_nmg(const NmgCounts& counts, std::string_view bytes, std::size_t offset, std::size_t step);
 

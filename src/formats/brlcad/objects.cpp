@@ -76,14 +76,15 @@ std::vector<bool> BrlcadObjects::used_entries() const {
 
 namespace {
 
-/// Divides out of the last rows of matrices what is no perspective but the rounding of a program in single precision.
+/// Removes noise from the last rows of matrices: entries that are no perspective, but the rounding of a program in
+/// single precision.
 class NoiseRemover {
 public:
     void remove(Matrix& matrix, const std::string& object, const Place& place) {
         if (matrix[12] == 0 && matrix[13] == 0 && matrix[14] == 0) return;
         double most = 0;
         for (std::size_t i = 12; i < 15; ++i) most = std::max(most, std::abs(matrix[i] / matrix[15]));
-        if (!(most <= single_precision)) return;  // not a number, either: validation refuses what uses it
+        if (!(most <= single_precision)) return;  // NaN, too: validation refuses its users
         for (std::size_t i = 12; i < 15; ++i) matrix[i] = 0;
         if (warning_.count == 0) {
             warning_.object = object;
@@ -93,14 +94,14 @@ public:
         }
         ++warning_.count;
     }
-    /// One for all of them: a file that has it nearly always has it in every matrix.
+    /// Adds one warning for all matrices: a file with noise nearly always has it in every matrix.
     void tell(std::vector<Warning>& warnings) {
         if (warning_.count > 0) warnings.push_back(std::move(warning_));
     }
 
 private:
     static constexpr double single_precision =
-        1e-6;  // of the last row's largest entry: as much as BRL-CAD's importer bears
+        1e-6;  // of the last row's largest entry: as much as BRL-CAD's importer accepts
 
     Warning warning_{
         {}, {}, "the last row of a matrix is not 0 0 0 w by the noise of single precision, which is divided out", 0};
@@ -118,7 +119,7 @@ void BrlcadObjects::add_balls(const Entry& entry, const BrlcadPoints& points, bo
     Combination all;
     all.name = entry.name;
     all.place = entry.place;
-    all.region = true;  // inside another region that does not matter
+    all.region = true;  // a region inside another region has no effect
     all.material_id = all.los = 0;
     std::size_t number = 0;
     for (const BrlcadPoints::Ball& ball : points.balls) {

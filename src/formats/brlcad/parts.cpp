@@ -15,10 +15,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Of a path in a message; a person needs all of it.
+/// The longest path in a message; a person needs all of it.
 constexpr std::size_t longest_path = 1000;
 
-/// Thrown to say why a solid cannot be completed; never leaves this file.
+/// The reason why a solid cannot be completed; thrown, but never out of this file.
 struct Lack {
     std::string reason;
 };
@@ -39,7 +39,7 @@ std::uint64_t bytes_of(const Sketch& sketch) {
     return bytes;
 }
 
-/// a x b, or more than any file holds.
+/// a x b, limited to more than any file holds.
 std::uint64_t capped_product(std::uint64_t a, std::uint64_t b) {
     constexpr std::uint64_t cap = max_file_bytes + 1;
     return a != 0 && b > cap / a ? cap : a * b;
@@ -47,7 +47,7 @@ std::uint64_t capped_product(std::uint64_t a, std::uint64_t b) {
 
 void assign(std::vector<std::uint8_t>& cells, const std::string& bytes) { cells.assign(bytes.begin(), bytes.end()); }
 
-/// Highest byte first.
+/// Reads heights, the highest byte first.
 void assign(std::vector<std::uint16_t>& heights, const std::string& bytes) {
     heights.resize(bytes.size() / 2);
     for (std::size_t i = 0; i < heights.size(); ++i) {
@@ -56,7 +56,7 @@ void assign(std::vector<std::uint16_t>& heights, const std::string& bytes) {
     }
 }
 
-/// Without links and .., as far as it exists. Empty: that cannot be told.
+/// The path without links and .., as far as it exists. Empty: it cannot be resolved.
 fs::path resolved(const fs::path& path) {
     std::error_code failed;
     const fs::path whole = fs::absolute(path, failed);
@@ -119,12 +119,12 @@ std::string BrlcadParts::take_cells(const Cells& cells, bool in_object) {
     return in_object ? read_object(cells.source, bytes, cells.size) : read_file(cells.source, bytes);
 }
 
-/// Nothing but a file of just the right size is opened, so no device or pipe, and no more is read than expected. What
-/// is said of a file that may not be named does not depend on whether it exists.
+/// Only a file of exactly the right size is opened, so no device or pipe, and not more bytes are read than expected.
+/// The message about a file that may not be named does not depend on whether it exists.
 std::string BrlcadParts::read_file(const std::string& name, std::uint64_t bytes) const {
     const std::string what =
         "its cells are in the file " + csgrt::quoted((folder_ / name).string(), longest_path) + ", which ";
-    // Without .. first: what stands outside is not asked whether it exists on the way back in.
+    // The .. go first: paths outside are not tested for existence on the way back in.
     const fs::path path = resolved((base_ / name).lexically_normal());
     if (std::none_of(allowed_.begin(), allowed_.end(), [&](const fs::path& f) { return is_below(path, f); }))
         throw Lack{what + "the model may not name: allow its folder with --allow-files"};

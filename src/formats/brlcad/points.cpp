@@ -12,7 +12,7 @@ namespace csgrt {
 
 namespace {
 
-// Bits of the type: what each point has besides its place, in this order.
+// Bits of the type: the values of each point besides its position, in this order.
 constexpr int with_color = 1, with_scale = 2, with_normal = 4;
 constexpr int last_type = with_color | with_scale | with_normal;
 
@@ -21,7 +21,8 @@ std::size_t numbers_of(int type) {
            ((type & with_normal) != 0 ? 3 : 0);
 }
 
-/// A point's own scale is its ball's radius, else that of all; without one, of more than 0, it has no inside.
+/// Adds a point. The radius of its ball is its own scale, else the scale of all points; without a scale of more than 0
+/// it has no inside.
 void add_point(BrlcadPoints& points, int type, double scale, std::span<const double> numbers) {
     const std::size_t scale_at = (type & with_color) != 0 ? 6 : 3;
     const double radius = (type & with_scale) != 0 ? numbers[scale_at] : scale;

@@ -1,4 +1,4 @@
-// BRL-CAD's pnts: points, of which each may have a colour, a scale and a normal. Those with a scale are balls.
+// Points (BRL-CAD's pnts), of which each may have a colour, a scale and a normal. A point with a scale is a ball.
 #pragma once
 
 #include <cstddef>
@@ -10,10 +10,10 @@ namespace csgrt {
 class ByteReader;
 class Parameters;
 
-/// Keys count, type, scale and data, a list of lists of numbers. Throws Fault.
+/// Reads the keys count, type, scale and data, a list of lists of numbers. Throws Fault.
 BrlcadPoints read_v5_points(Parameters& p);
 
-/// scale: a double  type: 2 bytes  count: 4 bytes  doubles of each point: x y z, colour?, scale?, normal?. Throws
+/// Reads scale: a double  type: 2 bytes  count: 4 bytes  doubles of each point: x y z, colour?, scale?, normal?. Throws
 /// Fault.
 BrlcadPoints read_g_points(ByteReader& bytes);
 

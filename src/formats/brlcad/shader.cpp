@@ -28,7 +28,7 @@ std::string_view next_token(std::string_view& text) {
     return token;
 }
 
-/// Without the blanks around it.
+/// The text without the blanks around it.
 std::string_view trimmed(std::string_view text) {
     constexpr std::string_view blanks = " \t\r\n";
     const std::size_t begin = std::min(text.find_first_not_of(blanks), text.size());
@@ -46,7 +46,7 @@ std::size_t group_length(std::string_view text) {
     return text.size();
 }
 
-/// Without braces that hold all of it; nobody wraps a shader deeper than this.
+/// The text without braces around all of it; nobody wraps a shader deeper than this.
 std::string_view unwrapped(std::string_view text) {
     constexpr int deepest = 8;
     text = trimmed(text);
@@ -104,7 +104,7 @@ void set_parameters(Finish& finish, std::string_view parameters) {
     while (true) {
         const std::string_view key = next_token(parameters);
         if (key.empty()) return;
-        // A key without a number leaves the next token to be a key itself.
+        // A key without a number: the next token is a key itself.
         std::string_view rest = parameters;
         if (const auto value = finite_decimal(next_token(rest))) {
             set_parameter(finish, key, *value);
@@ -113,7 +113,7 @@ void set_parameters(Finish& finish, std::string_view parameters) {
     }
 }
 
-/// The next `count` numbers; nothing, and `parameters` as it was, if there are not as many.
+/// The next `count` numbers; nothing, and `parameters` unchanged, if there are fewer.
 template <std::size_t count>
 std::optional<std::array<double, count>> next_numbers(std::string_view& parameters) {
     std::string_view rest = parameters;
@@ -131,7 +131,7 @@ std::optional<std::array<double, count>> next_numbers(std::string_view& paramete
     return numbers;
 }
 
-/// BRL-CAD reads a flag as a whole number.
+/// Is a flag set? BRL-CAD reads it as a whole number.
 bool is_set(double flag) { return static_cast<int>(std::clamp(flag, -1e9, 1e9)) != 0; }
 
 void set_parameter(Emission& light, std::string_view key, double value) {
@@ -152,7 +152,7 @@ void set_parameter(Emission& light, std::string_view key, double value) {
     }
 }
 
-/// `t`, `target` and `aim` are a point, `d` is a direction, as the oldest files have it.
+/// Reads a light. `t`, `target` and `aim` are a point, `d` is a direction, as in the oldest files.
 Emission read_light(std::string_view parameters) {
     Emission light;
     while (true) {
@@ -172,7 +172,7 @@ Emission read_light(std::string_view parameters) {
     }
 }
 
-/// The look of a stack: of its last shader that belongs to the Phong model.
+/// The finish of a stack: that of its last shader of the Phong model.
 Finish stack_finish(std::string_view stack) {
     stack = unwrapped(stack);
     Finish finish;
@@ -214,7 +214,7 @@ std::string shader_warning(std::string_view shader) {
 }
 
 void warn_of_shaders(Scene& scene) {
-    std::map<std::string, Warning> warnings;  // by reason: the order does not hang on that of the file
+    std::map<std::string, Warning> warnings;  // by reason: the order does not depend on the file's
     const auto add = [&](const Combination& combination, std::string reason) {
         if (reason.empty()) return;
         const auto [found, is_new] =

@@ -1,4 +1,5 @@
-// Parameters as BRL-CAD's older solids write them, in databases of every form: key=value key="value" key=1,2,3
+// Struct text: parameters as BRL-CAD's older solids write them, in databases of every form: key=value key="value"
+// key=1,2,3
 #pragma once
 
 #include <cstddef>
@@ -14,20 +15,20 @@
 
 namespace csgrt {
 
-/// What is missing or wrong is a Fault at its place; `offset` is that of the text.
+/// Reads such parameters. A missing or wrong value is a Fault at its position; `offset` is the position of the text.
 class StructText {
 public:
     StructText(std::string_view text, std::size_t offset);
 
     bool has(std::string_view key) const { return values_.count(key) != 0; }
-    /// Where the key's value stands, or the text if it is missing.
+    /// The position of the key's value, or of the text if it is missing.
     std::size_t place_of(std::string_view key) const;
     std::string text(std::string_view key);
     int integer(std::string_view key, int low, int high);
     std::uint32_t count(std::string_view key);  ///< 1 or more
     double number(std::string_view key);
     Vec3 vec3(std::string_view key);
-    /// Some programs cut the last row off; it is that of the identity then.
+    /// Some programs omit the last row; it is then that of the identity.
     Matrix matrix(std::string_view key);
     void end() const;
 
@@ -43,7 +44,7 @@ private:
     std::map<std::string, Value, std::less<>> values_;
 };
 
-/// The solids that are written so.
+/// Readers of the solids that are written in this form.
 BrlcadItem read_struct_ebm(StructText& p);
 BrlcadItem read_struct_vol(StructText& p);
 BrlcadItem read_struct_dsp(StructText& p);

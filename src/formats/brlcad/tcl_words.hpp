@@ -1,4 +1,4 @@
-// Words of Tcl, as far as a database needs them: commands of words, lists of words, braces, quotes and backslashes.
+// Tcl words, as far as a database needs them: commands of words, lists of words, braces, quotes and backslashes.
 // Nothing is executed: a $ or [ that Tcl would replace is a Fault.
 #pragma once
 
@@ -12,33 +12,33 @@
 
 namespace csgrt {
 
-/// A word's value and where it stands. The value is a part of the source, unless backslashes had to be replaced in it.
+/// A word: its value and its position. The value is a part of the source, unless backslashes had to be replaced in it.
 struct TclWord {
     std::string_view text;
     std::size_t offset = 0;  ///< of the value's first character in the source
     bool in_source = true;   ///< `text` is a part of the source, so `offset` holds for each character of it
     bool braced = false;
 
-    /// The place in the source of the character at `index`; the word's own if the value was made up.
+    /// The position in the source of the character at `index`; the word's own if the value is not a part of the source.
     std::size_t offset_at(std::size_t index) const { return in_source ? offset + index : offset; }
 };
 
-/// Values that are no part of the source live here; a deque, so that they stay where they are.
+/// Memory for values that are not a part of the source; a deque, so that they never move.
 using TclStore = std::deque<std::string>;
 
 /// Reads one word after another. Cost is linear in the text, however deep its braces.
 class TclReader {
 public:
-    /// Commands from `begin` on.
+    /// Reads the commands from `begin` on.
     TclReader(std::string_view text, TclStore& store, std::size_t begin = 0) : TclReader(TclWord{text}, store, true) {
         at_ = begin;
     }
 
-    /// The next command of a script: words up to the end of a line or a ';'. Comments are passed over. False at the
+    /// Reads the next command of a script: words up to the end of a line or a ';'. Comments are skipped. False at the
     /// end. Throws Fault; then `skip_to` finds the next command.
     bool next_command(std::vector<TclWord>& words);
 
-    /// Goes on at the next line, after the last command's first, that starts with one of the names and a blank.
+    /// Skips to the next line, after the last command's first, that starts with one of the names and a blank.
     void skip_to(const std::vector<std::string_view>& names);
 
     std::size_t offset() const { return source_.offset_at(at_); }
@@ -61,17 +61,17 @@ private:
 
     TclWord source_;
     TclStore& store_;
-    bool script_;  ///< a script, else a list: there newlines part words, and $ [ ; are letters
+    bool script_;  ///< a script, else a list: in a list newlines separate words, and $ [ ; are letters
     std::size_t at_ = 0;
-    std::size_t command_ = 0;  ///< where the last command starts
+    std::size_t command_ = 0;  ///< the position of the last command
 };
 
-/// The elements of a word that is a list.
+/// Reads the elements of a word that is a list.
 class TclList {
 public:
     TclList(const TclWord& list, TclStore& store) : reader_(list, store, false) {}
 
-    /// False at the end. Throws Fault.
+    /// Reads the next element. False at the end. Throws Fault.
     bool next(TclWord& element);
     std::size_t offset() const { return reader_.offset(); }
 
@@ -80,7 +80,7 @@ private:
 };
 
 /// The name that a word stands for. g2asc writes the braces of a name as \{ and \}, inside braces, where Tcl would keep
-/// the backslashes; they are taken back here, so that an object is found by the name that its users give.
+/// the backslashes. They are removed here, so that an object is found by the name that its users give.
 std::string tcl_name(const TclWord& word);
 
 }  // namespace csgrt

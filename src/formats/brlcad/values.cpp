@@ -17,8 +17,8 @@ struct Unit {
     std::string_view name;
     double millimetres;
 };
-/// BRL-CAD's units with its factors, in small letters and without blanks, since neither counts; of units of one length
-/// the first is the name that is written, of two units of one name (Mm and mm) the first is meant, both as in BRL-CAD.
+/// Units of BRL-CAD with its factors, in small letters and without blanks, since neither counts. Of units of one length
+/// the first has the name that is written; of two units of one name (Mm and mm) the first is meant, both as in BRL-CAD.
 constexpr Unit units[] = {
     {"mm", 1},
     {"none", 1},
@@ -91,7 +91,8 @@ constexpr Unit units[] = {
     {"parsec", 3.08568025e19},
 };
 
-/// As BRL-CAD compares names of units: without blanks, in small letters, without the s of a plural.
+/// The name of a unit in the form in which BRL-CAD compares names: without blanks, in small letters, without a plural's
+/// s.
 std::string plain_unit_name(std::string_view name) {
     std::string plain;
     for (const char c : name)
@@ -100,11 +101,11 @@ std::string plain_unit_name(std::string_view name) {
     return plain;
 }
 
-/// Units that are equal but for the rounding of their decimals in a file.
+/// The relative difference below which two units are equal, since a file rounds their decimals.
 constexpr double unit_gap = 1e-9;
 
-/// Elements of a matrix's last row below this are rounding of the program that wrote it, not perspective: over any
-/// model smaller than 1e6 metres they move a point by less than a part in a thousand.
+/// The size below which an element of a matrix's last row is rounding of the program that wrote it, not perspective:
+/// over any model smaller than 1e6 metres such elements move a point by less than a part in a thousand.
 constexpr double perspective_noise = 1e-12;
 
 }  // namespace

@@ -1,4 +1,4 @@
-// What both text forms of BRL-CAD's databases share: numbers, units, planes, matrices.
+// Values that both text forms of BRL-CAD's databases share: numbers, units, planes, matrices.
 #pragma once
 
 #include <cstddef>
@@ -9,31 +9,31 @@
 
 namespace csgrt {
 
-/// A finite number that fills `text`, or a Fault at `offset` that quotes it.
+/// Reads a finite number that fills `text`. Throws Fault at `offset` that quotes it.
 double read_number(std::string_view text, std::size_t offset);
 
-/// A whole number that fills `text` and lies in [low, high], or a Fault.
+/// Reads a whole number that fills `text` and lies in [low, high]. Throws Fault.
 int read_integer(std::string_view text, std::size_t offset, int low, int high);
 
 /// `text` in quotes for a message, cut short if long.
 std::string quoted(std::string_view text, std::size_t longest = 40);
 
-/// Millimetres in one unit of that name ("mm", "in", "Inches", "light year", ...); 0 if BRL-CAD has no such unit.
+/// Millimetres in one unit of this name ("mm", "in", "Inches", "light year", ...); 0 if BRL-CAD has no such unit.
 double unit_in_millimetres(std::string_view name);
-/// The name of a unit of that many millimetres, which is more than 0; "7 mm" if it has none.
+/// The name of a unit of this many millimetres, more than 0; "7 mm" if it has none.
 std::string unit_name(double millimetres);
 
-/// The half-space normal . p <= distance with its normal made a unit vector. A zero normal stays; validation names it.
+/// The half-space normal . p <= distance with a unit normal. A zero normal stays; validation reports it.
 Plane unit_plane(Vec3 normal, double distance);
 
-/// `v` made a unit vector; a zero vector stays.
+/// The unit vector of `v`; a zero vector stays.
 Vec3 unit_vector(const Vec3& v);
 
-/// Divides BRL-CAD's uniform scale (element 15 is its inverse) out of a matrix. One that is not affine, or not finite
-/// then, stays so: only what uses it is unusable, and validation says so there.
+/// Divides BRL-CAD's uniform scale (element 15 is its inverse) out of a matrix. A matrix that is not affine, or not
+/// finite then, stays: validation refuses only its users.
 Matrix without_scale(Matrix matrix);
 
-/// What a region's flag says: P a plate, V a volume, others neither.
+/// The kind of a region's flag: P a plate, V a volume, others neither.
 Fastgen fastgen_of(std::string_view flag);
 
 /// A colour of three components 0..255.

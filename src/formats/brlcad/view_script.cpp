@@ -39,21 +39,21 @@ std::vector<Word> words_of(std::string_view text, std::size_t begin, std::size_t
     return words;
 }
 
-/// What the commands before `end` have set. The rows of `turn` are the view's axes: right, up, to the eye.
+/// The values that the commands before `end` have set. The rows of `turn` are the view's axes: right, up, to the eye.
 struct State {
     std::optional<double> size, perspective;
     std::optional<Vec3> eye;
     std::optional<std::array<Vec3, 3>> turn;
 };
 
-/// BRL-CAD's quaternions are x y z w, and turn the model into the view.
+/// The axes of a quaternion. BRL-CAD's are x y z w, and turn the model into the view.
 std::array<Vec3, 3> axes_of_quaternion(double x, double y, double z, double w) {
     return {Vec3{1 - 2 * (y * y + z * z), 2 * (x * y + z * w), 2 * (x * z - y * w)},
             Vec3{2 * (x * y - z * w), 1 - 2 * (x * x + z * z), 2 * (y * z + x * w)},
             Vec3{2 * (x * z + y * w), 2 * (y * z - x * w), 1 - 2 * (x * x + y * y)}};
 }
 
-/// Level, with +z up; straight down and up as from azimuth 0.
+/// The axes towards the eye: level, with +z up; straight down and up those of azimuth 0.
 std::array<Vec3, 3> axes_towards(const Vec3& to_eye) {
     const Vec3 back = unit(to_eye);
     const bool vertical = back.x == 0 && back.y == 0;
@@ -96,7 +96,7 @@ public:
     }
 
 private:
-    /// rt's -p: an angle in degrees.
+    /// Reads the options of rt. -p: an angle in degrees.
     void read_options(std::size_t begin, std::size_t end) {
         const std::vector<Word> words = words_of(source_.text(), begin, end);
         for (std::size_t i = 0; i < words.size(); ++i) {
@@ -115,7 +115,7 @@ private:
         }
     }
 
-    /// `text`: the word, or what of it is the number.
+    /// Reads a number. `text`: the word, or the part of it that is the number.
     static double number(const Word& word, std::string_view text) {
         const auto value = finite_decimal(text);
         if (!value) throw Fault{word.offset, quoted(word.text) + " is not a finite number", {}};
@@ -133,7 +133,7 @@ private:
         return values;
     }
 
-    /// True: the frame is complete.
+    /// Reads a command. True: the frame is complete.
     bool read_command(const std::vector<Word>& words) {
         const std::string_view command = words[0].text;
         if (command == "end") return true;
@@ -179,7 +179,7 @@ private:
                                  Vec3{std::cos(e) * std::cos(a), std::cos(e) * std::sin(a), std::sin(e)}};
     }
 
-    /// "set perspective=40"
+    /// Reads "set perspective=40".
     void read_settings(std::span<const Word> words) {
         for (const Word& word : words.subspan(1)) {
             const std::size_t equals = word.text.find('=');
@@ -214,7 +214,8 @@ private:
         camera.perspective = state_.perspective.value_or(0);
         camera.eye = eye;
         camera.up = up;
-        // Any point before the eye will do. One as far away as the eye is from the origin keeps the direction's digits.
+        // The target is any point before the eye. A point as far away as the eye is from the origin keeps the
+        // direction's digits.
         const double far = std::max({*state_.size, std::abs(eye.x), std::abs(eye.y), std::abs(eye.z)});
         camera.look_at = eye - far * unit(back);
         if (camera.perspective == 0) camera.view_size = state_.size;

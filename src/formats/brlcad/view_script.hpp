@@ -1,4 +1,4 @@
-// The views that MGED's saveview writes, a shell script that feeds commands to rt:
+// View scripts, as MGED's saveview writes them: shell scripts that feed commands to rt:
 //
 //     #!/bin/sh
 //     rt -M -p40 ... <<EOF
@@ -9,7 +9,7 @@
 //     end;
 //     EOF
 //
-// or those commands alone. A database holds no views: its objects are solids and combinations.
+// or these commands alone. A database holds no views: its objects are solids and combinations.
 #pragma once
 
 #include <csgrt/scene.hpp>
@@ -18,7 +18,7 @@
 
 namespace csgrt {
 
-/// The view of the first frame. Throws Error (scene) for what is no such script.
+/// Reads the view of the first frame. Throws Error (scene) for a text that is not such a script.
 Camera parse_view_script(const TextSource& source);
 
 }  // namespace csgrt

@@ -1,4 +1,4 @@
-// Angles of a scene file are degrees, of the model radians.
+// Angles: degrees in a scene file, radians in the model.
 #pragma once
 
 #include <cmath>
@@ -9,7 +9,7 @@ namespace csgrt {
 
 inline double radians_of(double degrees) { return degrees / 180 * std::numbers::pi; }
 
-/// The degrees that read back to the very bits; there are none for some angles.
+/// The degrees that read back to the very same bits; nothing for angles without such degrees.
 inline std::optional<double> degrees_of(double radians) {
     const double near = radians / std::numbers::pi * 180;
     for (const double candidate :

@@ -1,4 +1,4 @@
-// The forms that a solid may have in a scene file: its own, and the friendlier ones that become it.
+// Forms that a solid may have in a scene file: its own, and the simpler ones that become it.
 #pragma once
 
 #include <tuple>
@@ -10,7 +10,7 @@
 
 namespace csgrt {
 
-/// The structs whose forms become a shape S, the most particular first: the writer takes the first that fits.
+/// The structs whose forms become a shape S, the most particular first: the writer uses the first that fits.
 template <class S>
 struct JsonFormsOf {
     using Types = std::tuple<S>;

@@ -9,7 +9,7 @@ namespace csgrt {
 
 namespace {
 
-/// Which of the given vertices each of an arb's eight is, for 4 to 8 given.
+/// The given vertex for each of an arb's eight, for 4 to 8 given.
 constexpr std::array<std::array<std::size_t, 8>, 5> arb_orders = {{
     {0, 1, 2, 0, 3, 3, 3, 3},
     {0, 1, 2, 3, 4, 4, 4, 4},
@@ -18,7 +18,7 @@ constexpr std::array<std::array<std::size_t, 8>, 5> arb_orders = {{
     {0, 1, 2, 3, 4, 5, 6, 7},
 }};
 
-/// The coordinate axis that is nearest to a right angle with `u`.
+/// The coordinate axis most nearly at a right angle to `u`.
 Vec3 most_perpendicular(const Vec3& u) {
     const double x = std::abs(u.x), y = std::abs(u.y), z = std::abs(u.z);
     if (x <= y && x <= z) return {1, 0, 0};

@@ -1,5 +1,5 @@
-// Solids by the numbers that a person knows. JSON's reader makes the model's solids of them, and its writer uses one
-// where it rebuilds the very bits.
+// Simple solids: given by numbers that a person knows. JSON's reader makes the model's solids of them. The writer uses
+// a simple solid if it makes the very same bits.
 #pragma once
 
 #include <array>
@@ -15,14 +15,14 @@ namespace csgrt {
 
 Ell sphere(const Vec3& center, double radius);
 
-/// A circular cone, or a cylinder if the radii are equal. The axes a and b are perpendicular to the height.
+/// Makes a circular cone, or a cylinder if the radii are equal. The axes a and b are perpendicular to the height.
 Tgc cone(const Vec3& base, const Vec3& height, double radius, double top_radius);
 
-/// A box along the axes.
+/// Makes a box along the axes.
 Arb box(const Vec3& low, const Vec3& high);
 
-/// arb4 to arb8 from as many vertices as the name says, in BRL-CAD's order:
-///   arb8: a face 0 1 2 3 and the opposite one 4 5 6 7, vertex 4 + i above vertex i
+/// Makes arb4 to arb8 from as many vertices as the name says, in BRL-CAD's order:
+///   arb8: a face 0 1 2 3 and the opposite face 4 5 6 7, vertex 4 + i above vertex i
 ///   arb7: arb8 with its last vertex in vertex 4
 ///   arb6: a face 0 1 2 3, and the edge 4 5 above it: 4 over 0 and 1, 5 over 2 and 3
 ///   arb5: a pyramid: a face 0 1 2 3, and the apex 4;   arb4: a face 0 1 2, and the apex 3
@@ -66,7 +66,7 @@ Arb model_of(const ArbOf<count>& s) {
     return arb({s.vertices.begin(), s.vertices.end()});
 }
 
-/// Makes the friendly solid that becomes this very one. False: there is none.
+/// Makes the simple solid that becomes this very one. False: there is none.
 bool simplify(const Ell& solid, Sphere& friendly);
 bool simplify(const Tgc& solid, Cone& friendly);
 bool simplify(const Tgc& solid, Cylinder& friendly);

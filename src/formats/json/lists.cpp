@@ -13,7 +13,7 @@ bool is_count(const JsonValue& value, double most, std::uint32_t& count) {
     return true;
 }
 
-/// The cells of one string.
+/// Reads the cells of one string.
 class CellText {
 public:
     CellText(const JsonNode& node, std::uint16_t most, bool marks) : node_(node), most_(most), marks_(marks) {}

@@ -1,5 +1,5 @@
-// Reads typed things out of JSON values. What is wrong becomes a finding at its place, and reading goes on with a
-// neutral value: a scene with findings is never handed out.
+// Nodes: read typed values from JSON. A wrong value becomes a finding at its place, and reading goes on with a neutral
+// value: a scene with findings is never returned.
 #pragma once
 
 #include <cstdint>
@@ -14,15 +14,15 @@
 
 namespace csgrt {
 
-/// What all nodes of a file share.
+/// The data that all nodes of a file share.
 struct JsonFile {
     const TextSource& source;
     Findings& findings;
     double unit = 1;  ///< millimetres in the file's unit of length
 };
 
-/// A value and the way to it. Absent if the file does not have it: then every reading function returns its neutral
-/// value without a finding.
+/// A value and the path to it. It is absent if the file does not have it: then every reading function returns its
+/// neutral value without a finding.
 class JsonNode {
 public:
     JsonNode(JsonFile& file, const JsonValue* value, std::string pointer)
@@ -48,21 +48,21 @@ public:
     std::uint32_t count(std::uint32_t otherwise = 0) const;  ///< a whole number from 0 to 2^32 - 1
     std::string string() const;
     std::string name() const;  ///< a string that is not empty
-    /// The number of the name that the string is, one of `names`.
+    /// The index of the string among `names`.
     std::size_t choice(std::span<const std::string_view> names, std::size_t otherwise) const;
-    Vec3 vector() const;  ///< three numbers, as they stand
+    Vec3 vector() const;  ///< three numbers, unchanged
     Vec3 color() const;   ///< three numbers from 0 to 1
-    /// The same in millimetres.
+    /// The number in millimetres.
     double length() const { return file_->unit * number(); }
     Vec3 lengths() const;
-    /// A vector of any length but 0, made a unit vector; one that is a unit vector already keeps its bits.
+    /// A vector of any length but 0, as a unit vector; a unit vector keeps its bits.
     Vec3 direction() const;
     /// `count` numbers.
     std::vector<double> numbers(std::size_t count) const;
 
-    const JsonArray* array() const;  ///< null, and a finding: it is none
+    const JsonArray* array() const;  ///< null, and a finding, if it is not an array
     JsonNode item(std::size_t i) const;
-    /// The items of an array, the members of an object (each name once), or nothing but a finding.
+    /// The items of an array, the members of an object (each name once); for other values nothing, and a finding.
     std::vector<JsonNode> items() const;
     struct Member;
     std::vector<Member> members() const;
@@ -94,7 +94,7 @@ struct JsonKey {
     bool required = false;
 };
 
-/// An object of given keys. Making one reports keys that are none of them, and required ones that are missing.
+/// An object of given keys. Its constructor reports keys that are none of them, and required keys that are missing.
 class JsonObject {
 public:
     JsonObject(const JsonNode& node, std::span<const JsonKey> keys);
@@ -107,7 +107,7 @@ private:
     JsonNode node_;
 };
 
-/// "a number", "an object", ...: what a value is, for messages.
+/// The kind of a value, for messages: "a number", "an object", ...
 const char* kind_of(const JsonValue& value);
 
 }  // namespace csgrt

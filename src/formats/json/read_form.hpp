@@ -1,4 +1,4 @@
-// Reads what form::of<S> describes.
+// Reading by form: reads the structs that form::of<S> describes.
 #pragma once
 
 #include <array>
@@ -19,7 +19,7 @@ constexpr auto json_keys(const form::Form<Members...>& form) {
     form::for_members(form, [&](const auto& m) { keys[i++] = {m.key.json, m.given == form::Given::required}; });
     return keys;
 }
-/// The object of that form. A solid's has the key "type" as well.
+/// The object of a form. A solid's object has the key "type" as well.
 template <class Form>
 JsonObject json_object(const JsonNode& node, const Form& form) {
     const auto keys = json_keys(form);
@@ -75,7 +75,7 @@ void read_value(const JsonNode& node, const form::List<Item>& list, std::vector<
         read_value(node.item(i), list.item, value);
     }
 }
-/// Two indices of vertices.
+/// Reads two indices of vertices.
 template <class Curve>
 void read_value(const JsonNode& node, form::Ends, Curve& value) {
     std::vector<std::uint32_t> ends;
@@ -88,7 +88,7 @@ void read_value(const JsonNode& node, form::Ends, Curve& value) {
     }
 }
 
-/// A list, or one value for each face.
+/// Reads a list, or one value for each face.
 template <class Item, class Value>
 void read_per_face(const JsonNode& node, const form::PerFace<Item>& kind, std::size_t faces,
                    std::vector<Value>& values) {
@@ -98,12 +98,12 @@ void read_per_face(const JsonNode& node, const form::PerFace<Item>& kind, std::s
     values.assign(faces, one);
 }
 
-/// Without one, cells are as long as the file's unit.
+/// Reads a placement. If there is none, cells are as long as the file's unit.
 Matrix read_placement(const JsonNode& node, const form::Placement& kind);
-/// Degrees, or "radians".
+/// Reads an angle in degrees, or in "radians".
 double read_turn(const JsonObject& o, form::Turn);
 
-// ---- What is allowed ----
+// ---- Checks ----
 
 inline void check_value(const JsonNode&, form::Any) {}
 void check_value(const JsonNode& node, const form::Bounds& bounds);
@@ -130,7 +130,7 @@ void read_member(const JsonObject& o, const Member& member, S& s) {
     }
 }
 
-/// The rules of the model's own structs are for `validate` to check, since other readers and programs make them too.
+/// `validate` checks the rules of the model's own structs, since other readers and programs make them too.
 template <class S, class Form>
 void read_members(const JsonObject& o, const Form& form, S& s) {
     form::for_members(form, [&](const auto& member) {

@@ -44,14 +44,14 @@ void read_value(const JsonNode& node, form::Corners corners, std::span<Vec3> val
     }
 }
 
-/// A list of loops, or a list of vertices, which is a face of one loop.
+/// Reads a list of loops, or a list of vertices, which is a face of one loop.
 void read_value(const JsonNode& node, form::Loops, std::vector<Nmg::Loop>& value) {
     const form::List loop{form::count};
     const JsonArray* items = node.array();
     if (items != nullptr && !items->empty() && !node.item(0).is_array()) {
         read_value(node, loop, value.emplace_back());
     } else {
-        read_value(node, form::List{loop, 0}, value);  // List{loop} would be a copy of it
+        read_value(node, form::List{loop, 0}, value);  // List{loop} would copy `loop`
     }
 }
 
@@ -68,7 +68,7 @@ void read_value(const JsonNode& node, form::Cells cells, std::vector<std::uint8_
 
 namespace {
 
-/// A circle is given by its centre and a vertex that it goes through.
+/// Reads a curve. A circle is given by its centre and a vertex on it.
 template <class Curve>
 Sketch::Curve read_curve(const JsonNode& node) {
     return read_form<Curve>(node);

@@ -21,7 +21,7 @@ struct Material {
     std::optional<Finish> finish;
 };
 
-/// A finish is there as soon as one of its keys is; the others keep their defaults.
+/// Reads a material. It has a finish if one of the finish's keys is there; the other keys have their defaults.
 Material read_material(const JsonNode& node) {
     const JsonObject o = json_object(node, form::of<Finish>);
     Material material;
@@ -58,7 +58,7 @@ public:
         for (const JsonNode::Member& member : members_of(o["materials"])) {
             materials_.emplace(member.name, read_material(member.value));
         }
-        // In the order of the file, which is the order of the regions.
+        // The sections are read in the order of the file, which is the order of the regions.
         for (const JsonMember& section : std::get<JsonMembers>(value.data)) {
             if (section.repeated) continue;
             if (section.name == "solids") read_solids(o["solids"]);
@@ -119,7 +119,7 @@ private:
         if (camera.center && camera.look_at) o["look_at"].fault("cannot stand beside \"center\": they are one point");
     }
 
-    /// False, and a finding, if the name is taken.
+    /// Takes a name. False, and a finding, if the name is taken.
     bool take_name(const JsonNode::Member& member, const char* what) {
         if (member.name.empty()) {
             member.fault("a name must not be empty");
@@ -215,7 +215,7 @@ private:
         }
     }
 
-    /// Puts the objects into the order that is given: solids and combinations may stand in any order among each other.
+    /// Sorts the objects into the given order: solids and combinations may stand in any order among each other.
     void read_order(const JsonNode& node) {
         if (!node.present()) return;
         std::vector<std::size_t> order;

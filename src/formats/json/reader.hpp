@@ -1,4 +1,4 @@
-// csgrt's own scene format. scenes/README.md describes it, scenes/csgrt.schema.json is its schema.
+// Reader of csgrt's own scene format. scenes/README.md describes it, scenes/csgrt.schema.json is its schema.
 #pragma once
 
 #include <string>
@@ -15,7 +15,7 @@ inline constexpr int json_format_version = 1;
 /// Reads a .json file. Throws Error: file if it cannot be read, scene with every finding if it is wrong.
 Scene read_json(const std::string& path);
 
-/// The same for a text in memory.
+/// Reads a text in memory.
 Scene parse_json_scene(const TextSource& source);
 
 }  // namespace csgrt

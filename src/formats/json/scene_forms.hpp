@@ -1,5 +1,5 @@
-// The descriptions of what a scene file has besides solids. Members without a place in a struct (`nothing`) are read
-// and written by hand.
+// Forms of a scene file's parts besides solids. Members that are not in a struct (`nothing`) are read and written by
+// hand.
 #pragma once
 
 #include <optional>
@@ -9,7 +9,7 @@
 
 namespace csgrt {
 
-/// What turns the leaf of a tree.
+/// The rotation of a tree's leaf.
 struct Rotation {
     Vec3 axis = {};
     double degrees = 0;
@@ -148,7 +148,7 @@ inline constexpr auto of<Rotation> = Form{
     required("angle", &Rotation::degrees, number, "Degrees, counterclockwise seen from the tip of the axis."),
 };
 
-/// A node of a tree: what it is, and what places it.
+/// A node of a tree: its kind, and its transform.
 constexpr auto node(const char* called, std::string_view key, auto kind, const char* about = "", auto... more) {
     return Form{
         plain(called, about),

@@ -12,7 +12,7 @@ namespace csgrt {
 
 namespace {
 
-/// What is wrong with several members of a friendly solid together.
+/// Checks several members of a simple solid together.
 template <class S>
 void check_together(const JsonObject&, const S&) {}
 
@@ -44,7 +44,7 @@ struct Reader {
     Read read;
 };
 const std::vector<Reader>& readers() {
-    static const auto& all = *new const std::vector<Reader>([] {  // for threads that see exit(), too
+    static const auto& all = *new const std::vector<Reader>([] {  // never destroyed: threads may outlive exit()
         std::vector<Reader> made;
         for_json_solids([&]<class S>(const S*) { made.push_back({form::of<S>.head.name, read_solid<S>}); });
         return made;
@@ -52,7 +52,7 @@ const std::vector<Reader>& readers() {
     return all;
 }
 
-/// What an object without a type can be told.
+/// The hint for an object without a type.
 std::string all_types() {
     std::string list;
     for (const Reader& reader : readers()) list += (list.empty() ? "one of " : ", ") + std::string(reader.type);

@@ -1,4 +1,4 @@
-// The solids of a scene file.
+// Solids of a scene file.
 #pragma once
 
 #include <csgrt/scene.hpp>
@@ -7,11 +7,11 @@
 
 namespace csgrt {
 
-/// Reads {"type": ..., ...}. The friendly types (sphere, cylinder, cone, box) answer for their numbers here; whether
-/// the general ones enclose anything is for `validate` to say, since other readers and programs make them too.
+/// Reads {"type": ..., ...}. The numbers of the simple types (sphere, cylinder, cone, box) are checked here; `validate`
+/// checks whether the general types enclose anything, since other readers and programs make them too.
 Shape read_json_solid(const JsonNode& node);
 
-/// What "type" may say.
+/// The values of "type".
 std::vector<std::string_view> json_solid_types();
 
 }  // namespace csgrt

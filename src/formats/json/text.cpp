@@ -15,7 +15,7 @@ using nlohmann::ordered_json;
 constexpr std::size_t widest = 118;
 constexpr std::size_t step = 2;
 
-/// On one line. Stops, half done, once the text is longer than `limit`.
+/// Appends a value on one line. Stops, half done, once the text is longer than `limit`.
 void append_flat(std::string& out, const ordered_json& value, std::size_t limit) {
     if (value.is_structured()) {
         const bool object = value.is_object();
@@ -41,7 +41,7 @@ bool is_number_list(const ordered_json& value) {
            std::all_of(value.begin(), value.end(), [](const ordered_json& item) { return item.is_number(); });
 }
 
-/// Numbers, as many on a line as there is room for.
+/// Appends numbers, as many on a line as there is room for.
 void append_filled(std::string& out, const ordered_json& numbers, std::size_t indent) {
     const std::string line = '\n' + std::string(indent + step, ' ');
     std::size_t column = widest;

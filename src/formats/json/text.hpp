@@ -1,5 +1,5 @@
-// Prints JSON for people: what fits stands on one line, what does not is broken into its parts, and long
-// lists of numbers fill their lines.
+// JSON text for people: a value that fits stands on one line, others are broken into their parts, and long lists of
+// numbers fill their lines.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +15,7 @@ void append_json(std::string& out, const nlohmann::ordered_json& value, std::siz
 
 /// A string in quotes.
 std::string json_string(const std::string& text);
-/// The same where bytes that are no UTF-8 may be replaced: names of old databases may be in any encoding.
+/// A string in quotes whose bytes that are not UTF-8 are replaced: names of old databases may be in any encoding.
 std::string readable_json_string(const std::string& text);
 
 /// The shortest number that reads back to the same double, -0 as "-0.0".

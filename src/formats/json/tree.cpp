@@ -14,7 +14,7 @@ namespace csgrt {
 
 namespace {
 
-/// The key of a node that says what it is: "object" or an operator; empty if there is none.
+/// The key that gives a node's kind: "object" or an operator; empty if there is none.
 std::string_view kind_of_node(const JsonMembers& members) {
     for (const JsonMember& member : members) {
         if (member.name == "object" || member.name == "postfix") return member.name;
@@ -42,7 +42,7 @@ class TreeReader {
 public:
     explicit TreeReader(Tree& tree) : tree_(tree) {}
 
-    /// `outer` places the node from outside; null: nothing does.
+    /// Reads a node. `outer`: the transform of the nodes around it; null: none.
     void read(const JsonNode& node, const Matrix* outer) {
         if (node.is_string()) {
             add_leaf(node, node, outer);
@@ -130,7 +130,7 @@ private:
         tree_.nodes.push_back({op, static_cast<std::uint32_t>(arity), {}, identity, node.place()});
     }
 
-    /// Takes its operands from those that wait. False: what follows would make no sense.
+    /// Reads an operator, which takes its operands from those that wait. False: reading on would have no meaning.
     bool read_postfix_operator(const JsonNode& item, std::size_t& waiting) {
         const JsonObject o = json_object(item, form::postfix_operator);
         const std::string name = o["operator"].string();

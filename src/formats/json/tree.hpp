@@ -1,4 +1,4 @@
-// The Boolean trees of a scene file.
+// Trees (Boolean) of a scene file.
 #pragma once
 
 #include <csgrt/scene.hpp>
@@ -7,8 +7,8 @@
 
 namespace csgrt {
 
-/// Reads a tree: null (the empty set), {"postfix": [...]}, or nested operators. The latter are read recursively; the
-/// parser has limited their depth to Limits::file_nesting.
+/// Reads a tree: null (the empty set), {"postfix": [...]}, or nested operators. Nested operators are read recursively;
+/// the parser has limited their depth to Limits::file_nesting.
 Tree read_json_tree(const JsonNode& node);
 
 }  // namespace csgrt

@@ -1,8 +1,8 @@
-// nlohmann's parser reports values without their places. Two facts give them back: its lexer reads character by
-// character, so a counting iterator knows where the token ends that was just reported; and between two tokens stand
-// only blanks, commas and colons, so the next token starts at the first other character. (A number ends one character
-// later for the iterator, since the lexer looks ahead; that character is a blank, comma or bracket, never a token's
-// start.)
+// Values with positions. nlohmann's parser reports values without their positions. Two facts give them back. Its lexer
+// reads character by character, so a counting iterator knows the end of the token that was just reported. And between
+// two tokens stand only blanks, commas and colons, so the next token starts at the first other character. (A number
+// ends one character later for the iterator, since the lexer looks ahead; this character is a blank, comma or bracket,
+// never a token's start.)
 #include "formats/json/value.hpp"
 
 #include <algorithm>
@@ -20,7 +20,7 @@ namespace csgrt {
 
 namespace {
 
-/// Reads a text and notes how far it got, for all its copies.
+/// An iterator over a text that notes its position, for all its copies.
 class CountingIterator {
 public:
     using iterator_category = std::input_iterator_tag;
@@ -48,7 +48,7 @@ private:
     std::size_t* consumed_;
 };
 
-/// What nlohmann says after its position and "syntax error while parsing ... - ".
+/// The part of nlohmann's message behind its position and "syntax error while parsing ... - ".
 std::string plain_message(std::string message) {
     if (const std::size_t dash = message.find(" - "); dash != std::string::npos) message.erase(0, dash + 3);
     if (const std::size_t tail = message.find("; last read:"); tail != std::string::npos) message.erase(tail);
@@ -62,7 +62,7 @@ public:
 
     std::optional<JsonValue> take() { return std::move(root_); }
 
-    // ---- what nlohmann calls; false stops it ----
+    // ---- The functions that nlohmann calls; false stops it ----
     bool null() { return add(nullptr); }
     bool boolean(bool value) { return add(value); }
     bool number_integer(std::int64_t value) {
@@ -77,7 +77,7 @@ public:
         return add(value);
     }
     bool string(std::string& value) { return add(std::move(value)); }
-    bool binary(nlohmann::json::binary_t&) { return false; }  // no JSON text holds one
+    bool binary(nlohmann::json::binary_t&) { return false; }  // no JSON text holds binary data
     bool start_object(std::size_t) { return open(JsonMembers{}); }
     bool start_array(std::size_t) { return open(JsonArray{}); }
     bool end_object() { return close(); }
@@ -111,10 +111,10 @@ public:
 private:
     struct Level {
         JsonValue* container;
-        std::unordered_map<std::string, std::size_t> names;  // of an object, with their places
+        std::unordered_map<std::string, std::size_t> names;  // of an object, with their positions
     };
 
-    /// Where the token starts that is being reported.
+    /// The position of the token that is being reported.
     std::size_t start() const {
         constexpr std::string_view between = " \t\r\n,:";
         std::size_t from = token_end_;
@@ -122,7 +122,7 @@ private:
         return std::min(text_.find_first_not_of(between, from), text_.size());
     }
 
-    /// JSON pointer of the innermost open container: the last child of each one around it.
+    /// The JSON pointer of the innermost open container: the last child of each container around it.
     std::string here() const {
         std::string pointer;
         for (std::size_t i = 0; i + 1 < levels_.size(); ++i) {

@@ -1,4 +1,4 @@
-// A JSON text as a tree of values that know where they stand.
+// Values: a JSON text as a tree of values that know their positions.
 #pragma once
 
 #include <cstddef>
@@ -18,24 +18,24 @@ using JsonMembers = std::vector<JsonMember>;  // in the order of the file
 
 struct JsonValue {
     std::variant<std::nullptr_t, bool, double, std::string, JsonArray, JsonMembers> data;
-    std::size_t offset = 0;  ///< of its first character
+    std::size_t offset = 0;  ///< position of its first character
 };
 struct JsonMember {
     std::string name;
-    std::size_t offset = 0;  ///< of the name's first quote
+    std::size_t offset = 0;  ///< position of the name's first quote
     JsonValue value;
-    bool repeated = false;  ///< the object has the name already, and a finding says so
+    bool repeated = false;  ///< the object has the name already, and a finding reports it
 };
 
-/// The first value of that name, or nullptr.
+/// The first value of a name, or nullptr.
 const JsonValue* find_member(const JsonMembers& members, std::string_view name);
 
 /// Parses the whole text. Syntax errors, numbers beyond a double's range, brackets nested deeper than
-/// Limits::file_nesting and names that stand twice in one object become findings; only the last kind lets it go on.
-/// Without a value, there is a finding.
+/// Limits::file_nesting and names that stand twice in one object become findings; parsing goes on only after the last
+/// kind. If there is no value, there is a finding.
 std::optional<JsonValue> parse_json(const TextSource& source, Findings& findings);
 
-/// A JSON pointer to a child of what `pointer` points to.
+/// The JSON pointer to a child of the value at `pointer`.
 std::string child_pointer(const std::string& pointer, std::string_view name);
 
 }  // namespace csgrt

@@ -1,4 +1,4 @@
-// What the files that check solids by family share.
+// Families: the declarations that the files share that check solids by family.
 #pragma once
 
 #include <algorithm>
@@ -15,8 +15,8 @@ namespace csgrt {
 
 using Faults = std::vector<std::string>;
 
-// What is wrong with several members together, and with lists that have millions of items. Called when all single
-// numbers are finite; `faults` has what is wrong with single members.
+// Checks several members together, and lists that have millions of items. Called when all single numbers are finite;
+// `faults` has the faults of single members.
 
 template <class S>
 void check_further(Faults&, const S&) {}
@@ -49,11 +49,12 @@ void check_further(Faults& faults, const Dsp& s);
 void check_further(Faults& faults, const Extrude& s);
 void check_further(Faults& faults, const Revolve& s);
 
-/// Sine of the angle that vectors called parallel (cosine: perpendicular) may differ by. BRL-CAD's databases keep
-/// vectors of single precision, off by up to 1e-6; its ray tracer refuses beyond a cosine of 0.999.
+/// The sine of the angle by which vectors that are called parallel may differ (perpendicular: the cosine). BRL-CAD's
+/// databases keep vectors of single precision, with errors of up to 1e-6; its ray tracer refuses beyond a cosine of
+/// 0.999.
 inline constexpr double angle_slack = 1e-3;
 
-/// A count that must not pass its limit. False, and a fault, if it does.
+/// Checks a count against its limit. False, and a fault, if it is more.
 inline bool require_at_most(Faults& faults, const std::string& what, std::size_t count, std::size_t limit) {
     if (count <= limit) return true;
     faults.push_back("it has " + std::to_string(count) + " " + what + "; at most " + std::to_string(limit) +
@@ -61,7 +62,7 @@ inline bool require_at_most(Faults& faults, const std::string& what, std::size_t
     return false;
 }
 
-/// "face 3 uses vertex 9, and there are 5", ...: after the name of who uses it.
+/// The text "face 3 uses vertex 9, and there are 5", ...: the part after the user's name.
 inline std::string uses_missing_vertex(std::size_t vertex, std::size_t count) {
     return " uses vertex " + std::to_string(vertex) + ", but there " +
            (count == 0   ? "are no vertices"

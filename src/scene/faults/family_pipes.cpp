@@ -7,13 +7,13 @@ namespace csgrt {
 
 namespace {
 
-/// What a length may pass another by that it was computed to equal.
+/// The rounding by which a length may pass another that it is computed to equal.
 constexpr double rounding = 1e-9;
 
-/// Directions that differ by less than this sine run straight on, or straight back.
+/// The sine of the angle below which two directions run straight on, or straight back.
 constexpr double straight = 1e-9;
 
-/// How long the straight parts on both sides of a bend are that its arc takes away; 0 where the pipe runs straight on.
+/// The length of the straight parts on both sides of a bend that its arc replaces; 0 where the pipe runs straight on.
 double tangent_at(Faults& faults, const Pipe& s, std::size_t i) {
     const Pipe::Point& p = s.points[i];
     const Vec3 into = unit(p.position - s.points[i - 1].position), out = unit(s.points[i + 1].position - p.position);
@@ -41,7 +41,7 @@ void check_further(Faults& faults, const Pipe& s) {
         }
     }
     if (!faults.empty()) return;
-    double before = 0;  // what the bend at the last point takes of the part behind it
+    double before = 0;  // the length that the bend at the last point takes of the part behind it
     for (std::size_t i = 1; i < s.points.size(); ++i) {
         const double tangent = i + 1 < s.points.size() ? tangent_at(faults, s, i) : 0;
         const double apart = length(s.points[i].position - s.points[i - 1].position);

@@ -12,11 +12,11 @@ namespace csgrt {
 
 namespace {
 
-/// What a number may pass another by that it was computed to equal.
+/// The rounding by which a number may pass another that it is computed to equal.
 constexpr double rounding = 1e-9;
 
-/// Looks for a curve's least u. Only curves that have control points beyond the axis are followed, by a few places in
-/// each span, so what is found is on the curve.
+/// Finds a curve's least u. Only curves with control points beyond the axis are evaluated, at a few points in each
+/// span, so the result is on the curve.
 struct LeastU {
     const Sketch& sketch;
 
@@ -47,7 +47,7 @@ struct LeastU {
         return u;
     }
 
-    /// De Boor's algorithm, with weights; t within the span.
+    /// The curve's u by de Boor's algorithm, with weights; t within the span.
     double u_at(const Sketch::Nurb& c, std::size_t span, double t) const {
         const std::size_t degree = c.order - 1;
         std::array<double, Limits::curve_degree + 1> u{}, w{};
@@ -68,7 +68,7 @@ struct LeastU {
     }
 };
 
-/// Loose ends are no faults: they are joined to the axis.
+/// Checks a profile. Loose ends are not faults: they are joined to the axis.
 void check_profile(Faults& faults, const Sketch& sketch) {
     double size = 0;
     for (const Sketch::Point& p : sketch.vertices) size = std::max({size, std::abs(p.u), std::abs(p.v)});
@@ -83,7 +83,7 @@ void check_profile(Faults& faults, const Sketch& sketch) {
     }
 }
 
-/// Do ends stay loose? Gaps that BRL-CAD does not see are closed, so they are no faults.
+/// Are there loose ends? Gaps that BRL-CAD does not see are closed, so they are not faults.
 bool is_open(const Sketch& sketch) {
     if (open_ends(sketch).empty()) return false;
     std::vector<CurvePiece> pieces = curve_pieces(sketch);

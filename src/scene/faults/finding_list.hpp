@@ -1,4 +1,4 @@
-// What is wrong, as far as a person reads it, and how much more there is.
+// Finding list: as many findings as a person reads, and the number of the others.
 #pragma once
 
 #include <algorithm>
@@ -19,14 +19,14 @@ inline bool comes_before(const Place& a, const Place& b) {
 
 class FindingList {
 public:
-    /// More than these help nobody; the others are counted.
+    /// The most findings that are shown; the others are counted.
     static constexpr std::size_t most = 50;
 
     bool empty() const noexcept { return found_.empty(); }
     bool full() const noexcept { return found_.size() == most; }
-    /// Counts one that is not shown.
+    /// Counts a finding that is not shown.
     void leave_out() noexcept { ++left_out_; }
-    /// Not everything was looked at.
+    /// Notes that not everything was checked.
     void stop() noexcept { stopped_ = true; }
     void add(Diagnostic diagnostic) {
         if (full()) return leave_out();
@@ -37,7 +37,7 @@ public:
                          [](const Diagnostic& a, const Diagnostic& b) { return comes_before(a.place, b.place); });
     }
     std::vector<Diagnostic>& shown() noexcept { return found_; }
-    /// All of them, and last how many more there are, if there are more. Empties the list.
+    /// Returns all findings, and last the number of further ones, if there are any. Empties the list.
     std::vector<Diagnostic> take() {
         if (left_out_ > 0 || stopped_)
             found_.push_back({{},

@@ -1,4 +1,4 @@
-// What is wrong with the scene's settings, a combination's attributes or its tree; each thing on its own.
+// Objects: checks the scene's settings, a combination's attributes and its tree, each value on its own.
 #pragma once
 
 #include <functional>
@@ -8,19 +8,19 @@
 
 namespace csgrt {
 
-/// Receives a finding: where, what, and what to do.
+/// Receives a finding: its place, the fault, and what to do.
 using Report = std::function<void(const Place& place, std::string message, std::string suggestion)>;
 
-/// Camera, lights, background, tolerance. They have no place but their name.
+/// Checks camera, lights, background and tolerance. Their place is only their name.
 void check_settings(const Scene& scene, const Report& report);
 
-/// Colour and finish.
+/// Checks colour and finish.
 void check_attributes(const Combination& combination, const Report& report);
-/// Operators and their operands.
+/// Checks operators and their operands.
 void check_tree(const Combination& combination, const Report& report);
-/// Where a leaf places its object.
+/// Checks the transform of a leaf.
 void check_matrix(const TreeNode& leaf, const Report& report);
-/// All of these. Names are not looked up.
+/// Checks the attributes, the tree and its matrices. Names are not looked up.
 void check_combination(const Combination& combination, const Report& report);
 
 }  // namespace csgrt

@@ -1,4 +1,4 @@
-// What is wrong with an outline, whatever is made of it.
+// Sketches: checks an outline, whatever solid is made of it.
 #pragma once
 
 #include <cstdint>
@@ -9,14 +9,14 @@
 
 namespace csgrt {
 
-/// One sentence a fault. Without any, every index is one of a vertex, every arc has a centre, every curve ends at its
-/// first and last points, and `open_ends` may be asked.
+/// The faults, one sentence each. If there are none, every index is a vertex's, every arc has a centre, every curve
+/// ends at its first and last points, and `open_ends` may be called.
 std::vector<std::string> sketch_faults(const Sketch& sketch);
 
-/// Vertices where an odd number of curves end, one for each such place. The other places are on closed loops.
+/// Vertices where an odd number of curves end, one for each position. All other positions are on closed loops.
 std::vector<std::uint32_t> open_ends(const Sketch& sketch);
 
-/// The least u of an arc of a sketch without faults: on its way it may come nearer to the axis than its ends.
+/// The least u of an arc of a sketch without faults: between its ends it may come nearer to the axis than they are.
 double least_u(const Sketch& sketch, const Sketch::Arc& arc);
 
 }  // namespace csgrt

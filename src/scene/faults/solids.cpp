@@ -1,4 +1,4 @@
-// Goes over the descriptions of solids for what is wrong with each of their members.
+// Solids: checks each member of each solid by the solid's description.
 #include "scene/faults/solids.hpp"
 
 #include <array>
@@ -34,11 +34,11 @@ struct Numbers {
     void add(const std::array<Vec3, 8>& vertices) {
         for (const Vec3& v : vertices) add(v);
     }
-    void add(const auto&) {}  // no numbers, or lists that check_further looks at
+    void add(const auto&) {}  // no numbers, or lists that check_further checks
 };
 
-/// Reports a number that is not finite or beyond the largest length, once a solid. Nothing else is worth saying about
-/// such a solid.
+/// Reports a number that is not finite or beyond the largest length, once a solid. Other faults of such a solid are not
+/// reported.
 template <class S>
 bool check_numbers(Faults& faults, const S& s) {
     Numbers numbers;
@@ -67,19 +67,19 @@ bool check_counts(Faults& faults, const S& s) {
     return faults.empty();
 }
 
-/// The rule of each member.
+/// Checks the rule of each member.
 template <class S>
 struct CheckRules {
     Faults& faults;
     const S& s;
-    std::string where;  ///< which part of the solid `s` is; empty: the solid itself
+    std::string where;  ///< the part of the solid that `s` is; empty: the solid itself
 
     void all() {
         for_values(s, [&](const auto& member, const auto& value) { check(member.kind, value, member.rule); });
     }
 
 private:
-    void check(const auto&...) {}  // nothing, or for check_further
+    void check(const auto&...) {}  // nothing to check, or for check_further
 
     void check(const auto&, double value, const form::Bounds& rule) {
         if (!rule.hold(value)) faults.push_back(rule.called + where + " " + rule.sentence);
@@ -92,7 +92,7 @@ private:
             faults.push_back(rule.called + where + " must be perpendicular to " + rule.other_called);
     }
 
-    /// False, and a fault, if there is none, or not that of a direction.
+    /// False, and a fault, if the vector has no length, or one that a direction must not have.
     template <class Kind>
     bool check_length(const Kind&, const Vec3& v, const char* called) {
         if (!(length(v) > 0)) {

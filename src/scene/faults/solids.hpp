@@ -1,4 +1,4 @@
-// What is wrong with one solid, whoever made it.
+// Faults of one solid, whoever made it.
 #pragma once
 
 #include <string>
@@ -8,7 +8,8 @@
 
 namespace csgrt {
 
-/// One sentence a fault; empty: the solid has an inside that can be ray-traced. Unsupported solids have no faults.
+/// The faults, one sentence each; empty: the solid has an inside that can be ray-traced. Unsupported solids have no
+/// faults.
 std::vector<std::string> solid_faults(const Shape& shape);
 
 }  // namespace csgrt

@@ -1,4 +1,4 @@
-// Types of solids that csgrt knows by name only.
+// Unsupported: types of solids that csgrt knows only by name.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace csgrt {
 
-/// Why such a solid cannot be drawn, and what to do: one sentence.
+/// The reason why such a solid cannot be drawn, and what to do: one sentence.
 std::string why_left_out(const Unsupported& shape);
 
 }  // namespace csgrt

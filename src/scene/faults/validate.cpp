@@ -1,5 +1,5 @@
-// One walk over everything that the rendered objects reach, each object once. How many solids stand below an object is
-// summed on the way back, so neither depth nor sharing costs.
+// Validation: one walk over everything that the rendered objects use, each object once. The number of solids below an
+// object is summed on the way back, so neither depth nor sharing costs time.
 #include <algorithm>
 #include <cstdint>
 #include <iterator>
@@ -66,12 +66,12 @@ public:
 private:
     enum class State : std::uint8_t { unseen, open, done };
     struct Reached {
-        std::uint64_t solids = 0;  ///< instances, repeats counted: below, or of the solid itself
-        std::uint32_t height = 0;  ///< combinations on the longest path downward, this one included
-        std::uint32_t users = 0;   ///< legs that lead here, each counted once
+        std::uint64_t solids = 0;  ///< instances, repeats counted: below the object, or of the solid itself
+        std::uint32_t height = 0;  ///< combinations on the longest path downward, with this one
+        std::uint32_t users = 0;   ///< members that name it, each counted once
         std::uint32_t first_user = 0;
         State state = State::unseen;
-        bool sound = false;  ///< by itself
+        bool sound = false;  ///< it has no fault of its own
     };
     struct Level {};
     friend class Walk<Level>;
@@ -81,7 +81,7 @@ private:
         found_.add({place, std::move(message), std::move(suggestion), {}});
     }
 
-    /// Marks the objects without a fault of their own, so that the walk need not look at them. Nearly all have none.
+    /// Marks the objects without a fault of their own, so that the walk need not check them. Nearly all have none.
     void find_sound() {
         constexpr std::size_t chunk = 2048;
         for_chunks(objects_.size(), chunk, 0, [this](std::size_t first, std::size_t last, std::size_t) {
@@ -113,7 +113,7 @@ private:
                 check_matrix(names_.node(path.steps[i - 1].object, path.steps[i].node), report_);
         }
         if (roots.empty() && named.empty() && scene_.top.empty()) {
-            // Every object is used by another: they form a cycle, which a walk from anywhere finds.
+            // Every object is used by another: they form a cycle, which a walk from any object finds.
             for (std::uint32_t i = 0; i < scene_.objects.size(); ++i) roots.push_back(i);
         }
         return roots;
@@ -152,14 +152,14 @@ private:
         warnings_.push_back({object, place, std::move(reason), 1});
     }
 
-    /// The legs that use the object are counted when all are known.
+    /// Leaves an object out. The members that name it are counted when all are known.
     void leave_out(std::uint32_t object, const Place& place, const std::string& reason) {
         names_.leave_out(object);
         counted_.emplace_back(warnings_.size(), object);
         bear(name_of(scene_.objects[object]), place, "left out: " + reason);
     }
 
-    /// Of a combination, no more than what is wrong. Returns whether its tree can be walked.
+    /// Leaves out the wrong parts of a combination. Returns whether its tree can be walked.
     bool leave_out_parts(std::uint32_t object) {
         const Combination& combination = std::get<Combination>(scene_.objects[object]);
         check_attributes(combination, [&](const Place& place, const std::string& message, const std::string&) {
@@ -182,7 +182,7 @@ private:
         return true;
     }
 
-    /// One warning for all legs that name the same missing object.
+    /// Adds one warning for all members that name the same missing object.
     void leave_out_missing(std::uint32_t parent, std::size_t node, const TreeNode& leg) {
         names_.leave_out(parent, node);
         const auto [known, is_new] = missing_.try_emplace(leg.object, warnings_.size());
@@ -194,9 +194,9 @@ private:
              "left out: there is no such object; used by '" + name_of(scene_.objects[parent]) + "'");
     }
 
-    // The visitor of the walk.
+    // The walk calls the functions below.
 
-    /// From a combination down one leg. A child that is done already is added now, one that is new when it is left.
+    /// Goes from a combination to a member. A child that is done already is added now, a new child when it is left.
     std::optional<Level> follow(const Open& parent, std::uint32_t node, std::uint32_t object) {
         if (object == Names::none) {
             follow_missing(parent.object, node);
@@ -209,7 +209,7 @@ private:
         } else if (child.state == State::done) {
             add_below(parent.object, child);
         } else if (child.sound && names_.is_solid(object)) {
-            child.state = State::done;  // what entering and closing it comes to
+            child.state = State::done;  // the same as entering and closing it
             add_below(parent.object, child);
         } else if (enter(object)) {
             return Level{};
@@ -234,7 +234,7 @@ private:
             found_.full() ? std::string() : did_you_mean_object(scene_, missing.object));
     }
 
-    /// What is below the object is known.
+    /// Closes an object: everything below it is known.
     void close(std::uint32_t object) {
         Reached& reached = objects_[object];
         reached.state = State::done;
@@ -256,13 +256,13 @@ private:
         objects_[parent].height = std::max(objects_[parent].height, child.height);
     }
 
-    /// Of the first object that has too many.
+    /// Reports the first object that has too many.
     void report_too_many(const Place& place, const std::string& what, std::uint64_t count) {
         if (!too_many_reported_) found_.add(instance_limit_.fault(place, what, static_cast<double>(count)));
         too_many_reported_ = true;
     }
 
-    /// Of a long cycle the end is told: a scene may have as many of them as objects.
+    /// Reports a cycle. Of a long cycle only the end is shown: a scene may have as many cycles as objects.
     void report_cycle(std::uint32_t parent, std::size_t node, std::uint32_t object) {
         if (!scene_.lenient && found_.full()) return found_.leave_out();
         const TreeNode& back = names_.node(parent, node);
@@ -280,7 +280,8 @@ private:
         add(back.place, "'" + back.object + "' contains itself: " + cycle + back.object, "take one of these legs out");
     }
 
-    /// Combinations without a tree, which BRL-CAD's objects without an inside are, too. Regions are told by flattening.
+    /// Reports combinations without a tree; BRL-CAD's objects without an inside are such, too. Flattening reports
+    /// regions.
     void report_hollow() {
         for (std::uint32_t i = 0; i < objects_.size(); ++i) {
             if (objects_[i].state == State::unseen || objects_[i].users == 0) continue;
@@ -341,7 +342,8 @@ private:
     Walk<Level> walk_;
     FindingList found_;
     std::vector<Warning> warnings_;
-    std::vector<std::pair<std::size_t, std::uint32_t>> counted_;  ///< warnings, and the objects whose legs they count
+    std::vector<std::pair<std::size_t, std::uint32_t>> counted_;  ///< indices of warnings, and the objects whose
+                                                                  ///< members they count
     std::unordered_map<std::string, std::size_t> missing_;        ///< names, and their warnings
     const Report report_ = [this](const Place& place, std::string message, std::string suggestion) {
         add(place, std::move(message), std::move(suggestion));

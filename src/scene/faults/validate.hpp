@@ -1,4 +1,4 @@
-// Validation with an index that is there already.
+// Validation with an index of names that exists already.
 #pragma once
 
 #include <string>
@@ -12,13 +12,13 @@ namespace csgrt {
 
 struct Validated {
     std::vector<Diagnostic> findings;
-    /// One an object: how many instances one place of it comes to, what is below it included. Of combinations that no
-    /// rendered object uses 0.
+    /// One an object: how many instances one transform of it expands to, everything below it included. 0 for
+    /// combinations that no rendered object uses.
     std::vector<std::uint64_t> instances;
 };
 
-/// csgrt::validate of the scene that `names` is of. What is left out is marked there, and told in `warnings`, which
-/// this appends to.
+/// Validates, as csgrt::validate does, the scene of `names`. Objects that are left out are marked in `names`, and
+/// reported in `warnings`, to which the function appends.
 Validated validate(const Scene& scene, Names& names, const std::vector<std::string>& objects, bool skip_unsupported,
                    std::vector<Warning>& warnings, std::uint64_t max_instances = 0);
 

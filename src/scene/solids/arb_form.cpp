@@ -12,13 +12,13 @@ namespace {
 
 constexpr double most_uneven = 0.0005;          // millimetres
 constexpr double most_uneven_relative = 1e-6;   // of the arb's size, if that is less
-constexpr double least_depth_relative = 4e-12;  // above what polyhedron.cpp takes for flat
-constexpr double cancelled = 1e-9;              // of what is summed up
+constexpr double least_depth_relative = 4e-12;  // above the depth that polyhedron.cpp takes for flat
+constexpr double cancelled = 1e-9;              // of the terms of a sum
 
 double sum_of_sizes(const Vec3& v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); }
 
-/// Do all faces leave the whole arb on one side, and turn the same way at each corner? False is said of some convex
-/// arbs, too. Most arbs need no closer look than this.
+/// Do all faces have the whole arb on one side, and turn the same way at each corner? The test is false for some convex
+/// arbs, too, but suffices for most arbs.
 bool plainly_convex(const Arb& arb) {
     constexpr double rounding = 1e-13;
     const auto& v = arb.vertices;
@@ -45,7 +45,7 @@ bool plainly_convex(const Arb& arb) {
     return true;
 }
 
-// A face that is a sliver loses its plane to the rounding of doubles.
+// Long double is needed: a face that is a sliver loses its plane to the rounding of doubles.
 struct Wide {
     long double x = 0, y = 0, z = 0;
 };
@@ -59,13 +59,13 @@ Wide cross(const Wide& a, const Wide& b) {
 }
 long double length(const Wide& a) { return std::sqrt(dot(a, a)); }
 
-/// A face as an outline of vertices that differ; empty: it has no area.
+/// A face as an outline of different vertices; empty: it has no area.
 struct Outline {
     std::array<std::uint32_t, 4> corners{};
     std::size_t count = 0;
     Wide normal;        ///< unit, of its widest triangle
     Vec3 on;            ///< one of its corners
-    double height = 0;  ///< the least of its three
+    double height = 0;  ///< the least of the triangle's three
 
     double above(const Vec3& p) const { return static_cast<double>(dot(normal, from_to(on, p))); }
 };
@@ -80,7 +80,7 @@ Outline outline_of(const Arb& arb, std::size_t face) {
     }
     while (outline.count > 1 && outline.corners[0] == outline.corners[outline.count - 1]) --outline.count;
     const auto& c = outline.corners;
-    // There and back along one edge and then another.
+    // The outline goes forth and back along one edge and then another.
     if (outline.count < 3 || (outline.count == 4 && (c[0] == c[2] || c[1] == c[3]))) return {};
     return outline;
 }
@@ -93,7 +93,7 @@ void find_plane(const Arb& arb, Outline& outline) {
         const Vec3 &p = arb.vertices[c[i]], &q = arb.vertices[c[j]], &r = arb.vertices[c[k]];
         const Wide pq = from_to(p, q), qr = from_to(q, r), rp = from_to(r, p);
         const long double longest = std::max({length(pq), length(qr), length(rp)});
-        // Of the two shorter sides: they round the least.
+        // The normal is computed from the two shorter sides: they round the least.
         const Wide n = longest == length(pq) ? cross(qr, rp) : longest == length(qr) ? cross(rp, pq) : cross(pq, qr);
         const long double area = length(n);
         if (!(area > widest)) continue;
@@ -105,15 +105,15 @@ void find_plane(const Arb& arb, Outline& outline) {
     if (widest == 0) outline.count = 0;
 }
 
-/// What is asked of all faces together.
+/// The arb's form: all faces together, and the arb's size.
 struct Form {
     std::array<Outline, 6> faces;
     double size = 0;
-    double rounding = 0;  ///< how far vertices may lie from where they are meant to be
+    double rounding = 0;  ///< the distance by which rounding may move vertices
     bool is_flat = false, is_concave = false;
 
-    /// How far from a face's plane a vertex may lie that is in it. A face that is a sliver is tilted by the rounding of
-    /// its vertices.
+    /// The distance from a face's plane up to which a vertex is in it. A face that is a sliver is tilted by the
+    /// rounding of its vertices.
     double depth_of(const Outline& face) const {
         return std::max(least_depth_relative * size, 4 * rounding * (1 + size / face.height));
     }
@@ -153,7 +153,7 @@ Form form_of(const Arb& arb) {
 bool crosses_itself(const Arb& arb, const Outline& face, double rounding) {
     if (face.count < 4) return false;
     const auto at = [&](std::size_t i) -> const Vec3& { return arb.vertices[face.corners[i % 4]]; };
-    // The sides of an edge's line on which two vertices lie differ, and neither is on it.
+    // An edge's line separates two vertices if they lie on different sides of it, and neither is on it.
     const auto parts = [&](std::size_t edge, std::size_t p, std::size_t q) {
         const Wide along = from_to(at(edge), at(edge + 1)), side = cross(face.normal, along);
         const long double a = dot(side, from_to(at(edge), at(p))), b = dot(side, from_to(at(edge), at(q)));
@@ -167,7 +167,7 @@ bool crosses_itself(const Arb& arb, const Outline& face, double rounding) {
 bool is_concave(const Arb& arb) { return !plainly_convex(arb) && form_of(arb).is_concave; }
 
 bool is_without_volume(const Arb& arb) {
-    // Most arbs need no closer look.
+    // Most arbs need only this test.
     const auto& v = arb.vertices;
     double size = 0, rough = 0;
     for (std::size_t i = 1; i < 8; ++i) size = std::max(size, sum_of_sizes(v[i] - v[0]));
@@ -177,7 +177,7 @@ bool is_without_volume(const Arb& arb) {
     if (std::abs(rough) > 1e-9 * size * size * size) return false;
     const Form form = form_of(arb);
     if (!form.is_flat) return false;
-    // In each plane the areas of the faces, with their signs, and the first moments of them cancel.
+    // In each plane the areas of the faces, with their signs, and their first moments cancel.
     for (const Outline& plane : form.faces) {
         if (plane.count == 0) continue;
         const double near = form.depth_of(plane);

@@ -1,4 +1,4 @@
-// The corners of an intersection of half-spaces.
+// Polytope: the corners of an intersection of half-spaces.
 #pragma once
 
 #include <vector>
@@ -11,10 +11,10 @@ struct Polytope {
     enum class Kind {
         empty,  ///< no point lies strictly inside all half-spaces
         bounded,
-        unbounded,  ///< reaches farther than a million times the farthest plane's distance
+        unbounded,  ///< extends farther than a million times the farthest plane's distance
     };
     Kind kind = Kind::empty;
-    std::vector<Vec3> vertices;  ///< of a bounded one; a corner may stand more than once
+    std::vector<Vec3> vertices;  ///< of a bounded polytope; a corner may stand more than once
 };
 
 /// Clips a large cube by one half-space after the other. Normals are unit vectors. Time grows with planes x faces: a

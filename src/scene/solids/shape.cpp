@@ -1,4 +1,4 @@
-// What of a shape is compiled once, for all of its types.
+// Shape: its functions that are compiled once, for all of its types.
 #include <csgrt/solids.hpp>
 
 namespace csgrt {

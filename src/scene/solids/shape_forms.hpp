@@ -1,4 +1,4 @@
-// The descriptions of all solids and of their parts, in the order in which JSON writes their members.
+// Shape forms: the descriptions of all solids and of their parts, in the order in which JSON writes their members.
 #pragma once
 
 #include <numbers>
@@ -293,7 +293,7 @@ inline constexpr auto of<Dsp> = Form{
     required("heights", &Dsp::heights, Cells{65535, false}, "Row by row from y = 0."),
 };
 
-// ---- Sketches. A curve's first key says which it is; whether it is reversed is the sketch's to keep. ----
+// ---- Sketches. A curve's first key gives its type; the sketch keeps whether it is reversed. ----
 
 inline constexpr auto reversed = optional("reversed", nothing, flag, "Kept for conversion.");
 
@@ -315,7 +315,7 @@ inline constexpr auto of<Sketch::Arc> = Form{
     reversed,
 };
 
-/// A file's other form of an arc: around `start`, through `end`.
+/// The second form of an arc in a file: around `start`, through `end`.
 struct Circle {
     std::uint32_t start = 0, end = 0;
 };
@@ -367,7 +367,7 @@ inline Extrude usual() {
     return {.a = {1, 0, 0}, .b = {0, 1, 0}};
 }
 
-/// What an angle may pass a full turn by that it was computed to equal.
+/// The rounding by which an angle may pass a full turn that it is computed to equal.
 constexpr double turn_rounding = 1e-9;
 
 template <>

@@ -8,9 +8,9 @@ namespace csgrt {
 
 namespace {
 
-/// BRL-CAD's distance below which points are one, millimetres.
+/// The distance below which points are one in BRL-CAD, millimetres.
 constexpr long double same_point = 0.0005L;
-/// Gaps are looked for pair by pair; a sketch with more loose ends than this is not meant to be closed.
+/// The most loose ends for which gaps are searched, pair by pair; a sketch with more is not meant to be closed.
 constexpr std::size_t gaps_to_close = 1000;
 
 struct Converter {
@@ -30,7 +30,7 @@ struct Converter {
         }
     }
 
-    /// Around `center`, in quarters.
+    /// Adds a circle around `center`, in quarters.
     void circle(const CurvePoint& start, const CurvePoint& center) {
         long double x = start.u - center.u, y = start.v - center.v;
         CurvePoint from = start;
@@ -45,8 +45,8 @@ struct Converter {
         }
     }
 
-    /// The angle phi runs from -alpha to alpha, 0 is the arc's middle. Points are told from the chord, not from the
-    /// center, which may be far away: r (cos phi - cos alpha) to the side and r sin phi along it.
+    /// Adds an arc. The angle phi runs from -alpha to alpha, 0 is the arc's middle. Points are computed from the chord,
+    /// not from the center, which may be far away: r (cos phi - cos alpha) to the side and r sin phi along it.
     void arc(const CurvePoint& start, const CurvePoint& end, const Sketch::Arc& arc) {
         const long double x = end.u - start.u, y = end.v - start.v, chord = std::hypot(x, y), half = chord / 2;
         const long double r = std::max<long double>(arc.radius, half);
@@ -82,7 +82,8 @@ struct Converter {
         pieces.push_back(std::move(piece));
     }
 
-    /// A span's control points are the values of the curve's polar form at its two ends (Ramshaw 1987).
+    /// Adds a B-spline. A span's control points are the values of the curve's polar form at the span's limits (Ramshaw
+    /// 1987).
     void operator()(const Sketch::Nurb& nurb) {
         const std::size_t degree = nurb.order - 1, count = nurb.points.size();
         const auto polar = [&](std::size_t span, const std::vector<double>& at) {
@@ -120,7 +121,8 @@ struct Converter {
         snap(pieces.back().back(), vertex(nurb.points.back()));
     }
 
-    /// Weights of 1 at both ends: a curve is the same with its weights multiplied by c s^i, at another pace.
+    /// Makes the weights at both ends 1: with its weights multiplied by c s^i a curve keeps its shape, with another
+    /// parameter.
     static void normalize(CurvePiece& piece) {
         const long double degree = static_cast<long double>(piece.size() - 1), scale = 1 / piece.front().weight;
         const long double pace = std::pow(piece.front().weight / piece.back().weight, 1 / degree);
@@ -132,7 +134,7 @@ struct Converter {
         piece.front().weight = piece.back().weight = 1;
     }
 
-    /// An end that is a vertex up to rounding is that vertex.
+    /// Moves an end onto a vertex if only rounding separates them.
     static void snap(CurvePoint& end, const CurvePoint& vertex) {
         const long double size = std::max(std::fabs(vertex.u), std::fabs(vertex.v));
         if (std::hypot(end.u - vertex.u, end.v - vertex.v) <= 1e-16L * size) end = vertex;

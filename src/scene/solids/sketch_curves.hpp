@@ -1,4 +1,4 @@
-// A sketch's curves in one form: rational Bezier pieces.
+// Sketch curves in one form: rational Bezier curves.
 #pragma once
 
 #include <vector>
@@ -11,24 +11,23 @@ namespace csgrt {
 struct CurvePoint {
     long double u = 0, v = 0, weight = 1;
 };
-/// A rational Bezier curve of degree size - 1; the weights at its ends are 1. Two points: a straight line.
+/// A rational Bezier curve of degree size - 1, with weights of 1 at both ends. Two points: a straight line.
 using CurvePiece = std::vector<CurvePoint>;
 
-/// All curves of a sound sketch (see `sketch_faults`). Where pieces meet in a vertex their ends are that vertex, bit by
-/// bit. Arcs come in pieces of at most 90 degrees, B-splines in one a span of their knots.
+/// All curves of a sound sketch (see `sketch_faults`). Where they meet in a vertex their ends are this vertex, bit by
+/// bit. Arcs come in parts of at most 90 degrees, B-splines in one part a span of their knots.
 std::vector<CurvePiece> curve_pieces(const Sketch& sketch);
 
-/// The points where an odd number of pieces ends: a closed outline has none.
+/// The points where an odd number of curves ends: a closed outline has none.
 std::vector<CurvePoint> loose_ends(const std::vector<CurvePiece>& pieces);
 
-/// Joins loose ends that are nearer to each other than BRL-CAD tells points apart, by lines. Returns those that are
-/// left.
+/// Joins by lines the loose ends that BRL-CAD takes for one point. Returns the others.
 std::vector<CurvePoint> close_gaps(std::vector<CurvePiece>& pieces);
 
-/// All curves and the lines that close gaps.
+/// All curves, with the lines that close gaps.
 std::vector<CurvePiece> closed_pieces(const Sketch& sketch);
 
-/// All curves of a profile that is turned about u = 0: ends that stay loose are joined to the axis, straight across.
+/// All curves of a profile that is turned about u = 0: loose ends are joined to the axis, straight across.
 std::vector<CurvePiece> turned_pieces(const Sketch& sketch);
 
 }  // namespace csgrt

@@ -11,7 +11,7 @@ namespace {
 constexpr long double precision = 1e-16L;
 constexpr int deepest = 60;  // halvings; 30 bring the control points of a smooth curve within `precision` of it
 
-/// The rational curve of the values that the direction gives to control points, homogeneous.
+/// The rational curve of the control points' positions along the direction, homogeneous.
 struct Values {
     std::vector<long double> value, weight;
 
@@ -35,7 +35,7 @@ struct Values {
     }
 };
 
-/// Raises `most` to the curve's greatest value: a curve lies within its control points' values, its ends are on it.
+/// Raises `most` to the curve's greatest value: a curve lies within its control points' values, and its ends are on it.
 void raise(long double& most, const Values& curve, long double slack, int depth) {
     most = std::max({most, curve.at(0), curve.at(curve.value.size() - 1)});
     if (curve.greatest() <= most + slack || depth == deepest) return;

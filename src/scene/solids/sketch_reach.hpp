@@ -1,4 +1,4 @@
-// How far curves reach in a direction of their plane.
+// Extent of curves in a direction of their plane.
 #pragma once
 
 #include <utility>
@@ -8,7 +8,7 @@
 
 namespace csgrt {
 
-/// The least and the greatest gu u + gv v over all pieces, from outside, to about 1e-15 of what is added up.
+/// The least and the greatest gu u + gv v over all curves, from outside, to about 1e-15 of the terms.
 std::pair<long double, long double> reach_of(const std::vector<CurvePiece>& pieces, long double gu, long double gv);
 
 }  // namespace csgrt

@@ -35,7 +35,7 @@ std::uint64_t ByteReader::number(unsigned width, const char* what) {
 
 std::int64_t ByteReader::signed_number(unsigned width, const char* what) {
     const unsigned unused = 64 - (8u << width);
-    // Shifted up so that the sign is the highest bit, and down again with it.
+    // The number is shifted up so that its sign is the highest bit, and down again with the sign.
     return static_cast<std::int64_t>(number(width, what) << unused) >> unused;
 }
 

@@ -1,4 +1,4 @@
-// The bytes of a binary database, and a reader of big-endian values in them.
+// Bytes of a binary database, and a reader of big-endian values in them.
 #pragma once
 
 #include <cstddef>
@@ -16,7 +16,7 @@ constexpr std::size_t word_size = 4, real_size = 8;  // bytes of a whole number 
 
 class ByteSource : public Source {
 public:
-    /// `name` is what diagnostics call the file.
+    /// `name`: the file's name in diagnostics.
     ByteSource(std::string name, std::string bytes) : name_(std::move(name)), bytes_(std::move(bytes)) {}
 
     const std::string& name() const noexcept { return name_; }
@@ -30,7 +30,7 @@ private:
     std::string bytes_;
 };
 
-/// Reads one value after another from a part of a file. What is missing or wrong is a Fault that names it (`what`).
+/// Reads one value after another from a part of a file. A missing or wrong value is a Fault that names it (`what`).
 class ByteReader {
 public:
     ByteReader(std::string_view bytes, std::size_t offset) : bytes_(bytes), offset_(offset) {}
@@ -43,26 +43,26 @@ public:
 
     /// A whole number of 1, 2, 4 or 8 bytes: `width` is 0, 1, 2 or 3.
     std::uint64_t number(unsigned width, const char* what);
-    /// The same, where the highest bit is a sign.
+    /// A whole number of 1, 2, 4 or 8 bytes whose highest bit is a sign.
     std::int64_t signed_number(unsigned width, const char* what);
 
     /// A number of 4 bytes.
     std::uint32_t word(const char* what) { return static_cast<std::uint32_t>(number(2, what)); }
-    /// The same, if it counts things of `size` bytes each, and all of them can still stand here.
+    /// A word that counts items of `size` bytes each, all of which fit the rest.
     std::uint32_t count(std::size_t size, const char* what);
-    /// The same, if it is less than `end`.
+    /// A word that is less than `end`.
     std::uint32_t index(std::size_t end, const char* what);
 
     /// A finite double.
     double real(const char* what);
     Vec3 vec3(const char* what);
 
-    /// The next byte, which must be there; it stays.
+    /// The next byte, which must be there. The position stays.
     char peek() const { return bytes_.front(); }
 
     /// A text without the zero byte that ends it.
     std::string_view text(const char* what);
-    /// The same, if it must not be empty.
+    /// A text that is not empty.
     std::string_view name(const char* what);
 
 private:

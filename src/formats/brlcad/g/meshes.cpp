@@ -1,4 +1,4 @@
-// Solids of binary databases that are made of many points.
+// Meshes: solids of binary databases that are made of many points.
 //
 //     bot       vertices, faces: counts  orientation, mode, flags: bytes  points  corners of faces
 //               plates: thicknesses, a text with a bit for each face   normals, if the flags say so
@@ -25,7 +25,7 @@ int choice(ByteReader& b, int last, const char* what) {
     return value;
 }
 
-/// `count` things must stand here, of `size` bytes each; before room is made for them.
+/// Checks, before memory is reserved, that `count` items of `size` bytes each can stand here.
 void expect(const ByteReader& b, std::uint64_t count, std::size_t size, const char* what) {
     if (count > b.left() / size) {
         throw Fault{b.offset(),
@@ -76,7 +76,7 @@ Shape read_g_bot(ByteReader& b) {
         bot.normals = points(b, normals, "a normal");
         bot.face_normals = triangles(b, face_normals, normals, "a face's normal");
     }
-    if ((flags & has_texture) != 0) b.take(b.left(), "places in a texture");  // no part of the shape
+    if ((flags & has_texture) != 0) b.take(b.left(), "places in a texture");  // not a part of the shape
     return bot;
 }
 

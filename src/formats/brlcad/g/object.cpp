@@ -39,7 +39,7 @@ std::string read_name(ByteReader& bytes, std::uint8_t flags) {
 
 GBlock read_block(ByteReader& bytes, std::uint8_t flags, const char* what) {
     GBlock block;
-    block.offset = bytes.offset();  // where it would stand
+    block.offset = bytes.offset();  // the position where it would stand
     if ((flags & is_present) == 0) return block;
     const std::uint64_t length = bytes.number(width_of(flags), what);
     block.offset = bytes.offset();
@@ -48,7 +48,7 @@ GBlock read_block(ByteReader& bytes, std::uint8_t flags, const char* what) {
     return block;
 }
 
-/// For a finding about an object that is cut off: its name, if at least that is there.
+/// The name of an object that is cut off, for a finding; empty if even the name is missing.
 std::string name_if_any(ByteReader bytes, std::uint8_t flags) {
     try {
         return read_name(bytes, flags);
@@ -103,7 +103,7 @@ void read_g_object(const ByteSource& source, std::size_t offset, GObject& object
 std::vector<Attribute> read_g_attributes(const GBlock& block) {
     std::vector<Attribute> attributes;
     ByteReader bytes = read_g_block(block, "the attributes");
-    // An empty key ends them; what may follow is binary, and no attribute of a shape.
+    // An empty key ends the attributes. Binary ones may follow, but none of a shape.
     while (bytes.left() > 0 && bytes.peek() != 0) {
         Attribute attribute;
         attribute.key = bytes.name("an attribute");

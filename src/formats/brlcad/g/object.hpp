@@ -1,4 +1,4 @@
-// One object of a binary database: its frame, its name, and where its attributes and its body stand.
+// Object of a binary database: its frame, its name, and the positions of its attributes and its body.
 #pragma once
 
 #include <cstddef>
@@ -22,20 +22,20 @@ struct GObject {
     enum class Kind { data, header, free, unknown };
 
     std::size_t offset = 0;
-    std::size_t end = 0;  ///< where the next object starts; 0 if that cannot be told
+    std::size_t end = 0;  ///< the position of the next object; 0 if it is not known
     Kind kind = Kind::data;
     int major = 0, minor = 0;
-    std::string name;  ///< empty if it has none, or that cannot be told
+    std::string name;  ///< empty if the object has none, or it is not known
     GBlock attributes, body;
 };
 
-/// Reads the object at `offset`; its body stays undecoded. Throws Fault; what is known by then is in `object`.
+/// Reads the object at `offset`; its body stays undecoded. Throws Fault; `object` then has the parts that were read.
 void read_g_object(const ByteSource& source, std::size_t offset, GObject& object);
 
 /// The attributes of an object. Throws Fault.
 std::vector<Attribute> read_g_attributes(const GBlock& block);
 
-/// The bytes of a block. Throws Fault if they are compressed: csgrt has nothing to expand them with.
+/// The bytes of a block. Throws Fault if they are compressed: csgrt has no decompression.
 ByteReader read_g_block(const GBlock& block, const char* what);
 
 }  // namespace csgrt

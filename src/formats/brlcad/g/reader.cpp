@@ -1,6 +1,7 @@
-// A database is a row of objects. The first is its header; _GLOBAL holds title, unit and region colours as attributes;
-// geometry is solids and combinations, whose attributes make them regions. Binary data may be cells of a solid. All
-// other objects (free storage, notes) do not matter to a scene. Lengths are millimetres; the unit is for display.
+// Reader of a binary database, which is a row of objects. The first is its header; _GLOBAL holds title, unit and region
+// colours as attributes; geometry is solids and combinations, whose attributes make them regions. Binary data may be
+// cells of a solid. A scene needs no other objects (free storage, notes). Lengths are millimetres; the unit is for
+// display.
 #include "formats/brlcad/g/reader.hpp"
 
 #include <new>
@@ -21,7 +22,8 @@ namespace {
 constexpr int major_geometry = 1, major_attributes = 2, major_numbers = 9;
 constexpr int minor_combination = 31;
 
-/// Records of release 4 start with a letter, the first with I, a unit's number and the release.
+/// Does the file begin as release 4 does? Its records start with a letter, the first with I, a unit's number and the
+/// release.
 bool is_release_4(std::string_view bytes) {
     return bytes.size() > 2 && bytes.starts_with('I') && bytes.substr(2, 2) == "v4";
 }
@@ -59,7 +61,7 @@ private:
                 check_header(object);
                 read_object(object);
             } catch (Fault& fault) {
-                // Without its end there is no next object; without a header at the start this is another kind of file.
+                // An object without an end has no next object; a file without a header at its start is of another kind.
                 if (object.end == 0 || is_misplaced(object)) {
                     findings_.add(std::move(fault), object.name);
                 } else {
@@ -118,7 +120,7 @@ private:
         }
     }
 
-    /// The cells of an ebm, vol or dsp. Those that are compressed hold nothing that csgrt could use.
+    /// Reads the cells of an ebm, vol or dsp. csgrt cannot use compressed cells.
     void read_numbers(const GObject& object) {
         if (object.name.empty()) throw Fault{object.offset, "the object has no name", {}};
         BrlcadNumbers numbers;

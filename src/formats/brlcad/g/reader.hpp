@@ -1,4 +1,4 @@
-// BRL-CAD's binary databases of release 5.
+// Binary databases of BRL-CAD's release 5.
 #pragma once
 
 #include <string>
@@ -13,13 +13,13 @@ class ByteSource;
 
 /// Reads a .g file. Throws Error: file if it cannot be read, scene with every finding if it is wrong, out_of_memory if
 /// the host cannot hold it. Solids that csgrt does not know become Unsupported. Places give the byte and the object.
-/// `lenient`: as if not LoadOptions::strict. `file_folders`: see LoadOptions.
+/// `lenient`: the opposite of LoadOptions::strict. `file_folders`: see LoadOptions.
 Scene read_brlcad_g(const std::string& path, bool lenient = false, const std::vector<std::string>& file_folders = {});
 
 /// Whether these bytes begin a binary database, of release 5 or 4.
 bool is_brlcad_g(std::string_view bytes);
 
-/// The same for a database in memory.
+/// Reads a database in memory.
 Scene parse_brlcad_g(const ByteSource& source, bool lenient = false);
 
 }  // namespace csgrt

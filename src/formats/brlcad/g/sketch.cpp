@@ -1,7 +1,8 @@
 // Sketches of binary databases, and the solids that they make.
 //
-//     sketch   V, A, B: points  vertices, curves: counts  u, v of each vertex  curves  a word for each, whether
-//     reversed curve    four letters: lseg  start, end
+//     sketch   V, A, B: points  vertices, curves: counts  u, v of each vertex  curves
+//              a word for each curve: is it reversed?
+//     curve    four letters: lseg  start, end
 //                            carc  start, end, clockwise, center left  radius
 //                            bezi  degree  degree + 1 vertices
 //                            nurb  order, type of points, knots: words  knots  points: count  points  weights?
@@ -80,7 +81,7 @@ Sketch::Curve read_curve(ByteReader& b, std::size_t vertices) {
 
 }  // namespace
 
-/// The plane of a sketch does not matter to the solids that it makes: they have their own.
+/// The plane of a sketch is not read: the solids that the sketch makes have planes of their own.
 Sketch read_g_sketch(ByteReader& b) {
     for (const char* what : {"V", "A", "B"}) b.vec3(what);
     const std::uint32_t vertices = b.count(2 * real_size, "the number of vertices");

@@ -42,11 +42,11 @@ Shape arbn(ByteReader& b) {
     return solid;
 }
 
-// Braces evaluate their parts from left to right, which is the order of the file where it is not the description's.
+// The parts of braces are evaluated from left to right: in the order of the file, where it is not the description's.
 
 Shape eto(ByteReader& b) { return Eto{b.vec3("V"), b.vec3("N"), b.vec3("C"), b.real("r"), b.real("r_d")}; }
 
-/// Eight bytes more follow, which BRL-CAD never sets.
+/// Eight more bytes follow, which BRL-CAD never sets.
 BrlcadItem hyp(ByteReader& b) {
     BrlcadItem solid = described<Hyp>(b);
     if (b.left() == real_size) b.take(real_size, "what follows a hyp");
@@ -64,7 +64,7 @@ BrlcadItem item(ByteReader& bytes) {
     return {read(bytes)};
 }
 
-/// BRL-CAD's names of all its types, by their numbers, and how those that csgrt knows are read.
+/// The table of types, by their numbers: BRL-CAD's names, and readers for the types that csgrt knows.
 struct Type {
     const char* name = nullptr;
     BrlcadItem (*read)(ByteReader&) = nullptr;

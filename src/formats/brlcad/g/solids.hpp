@@ -1,4 +1,4 @@
-// Objects of BRL-CAD's binary databases that are no combinations: numbers in a fixed order.
+// Solids and other objects of BRL-CAD's binary databases, except combinations: numbers in a fixed order.
 #pragma once
 
 #include <csgrt/scene.hpp>
@@ -11,10 +11,10 @@ namespace csgrt {
 /// The object that a body holds; `minor` is its type's number. Solids of types that csgrt does not know are
 /// Unsupported, their bodies unread. Throws Fault.
 BrlcadItem read_g_solid(int minor, const GBlock& body);
-/// BRL-CAD's name of that type, or its number.
+/// BRL-CAD's name of a type, or its number.
 std::string g_type_name(int minor);
 
-// Its parts, by family.
+// Readers of single types, by family.
 Shape read_g_bot(ByteReader& bytes);
 Shape read_g_ars(ByteReader& bytes);
 Shape read_g_nmg(ByteReader& bytes);

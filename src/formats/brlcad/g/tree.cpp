@@ -1,4 +1,4 @@
-// The body of a combination:
+// Tree: the body of a combination.
 //
 //     width                           of the numbers that follow, 0 to 3: 1, 2, 4 or 8 bytes
 //     matrices leaves leaf-bytes expression-length depth
@@ -6,7 +6,7 @@
 //     leaves: a name and its zero byte, the number of its matrix or -1
 //     expression: a byte a token, postfix; the leaves are used in their order
 //
-// Without an expression all leaves are united.
+// Without an expression the tree is the union of all leaves.
 #include "formats/brlcad/g/tree.hpp"
 
 #include <optional>
@@ -46,7 +46,7 @@ public:
     }
 
 private:
-    /// Everything before the expression, whose length it returns.
+    /// Reads everything before the expression, and returns the expression's length.
     std::uint64_t read_head() {
         const std::size_t begin = bytes_.offset();
         width_ = bytes_.byte("the width of the numbers");
@@ -78,7 +78,7 @@ private:
         if (leaf_count_ < 2) return;
         TreeNode node;
         node.op = Operator::union_;
-        node.arity = static_cast<std::uint32_t>(leaf_count_);  // as many leaves were there
+        node.arity = static_cast<std::uint32_t>(leaf_count_);  // all leaves were read
         node.place = tree_.nodes.front().place;
         tree_.nodes.push_back(std::move(node));
     }

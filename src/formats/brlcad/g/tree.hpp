@@ -1,4 +1,4 @@
-// Boolean trees of BRL-CAD's binary databases: the body of a combination.
+// Trees (Boolean) of BRL-CAD's binary databases: the body of a combination.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace csgrt {
 
-/// The tree that a body holds. Throws Fault. `object` is the combination's name, for the places of the nodes.
+/// Reads the tree of a body. Throws Fault. `object`: the combination's name, for the places of the nodes.
 Tree read_g_tree(const GBlock& body, const ByteSource& source, const std::string& object);
 
 }  // namespace csgrt

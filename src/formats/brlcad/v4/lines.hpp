@@ -12,7 +12,7 @@
 
 namespace csgrt {
 
-/// A line without its end, and where it starts in the file.
+/// A line without its end, and its position in the file.
 struct Line {
     std::string_view text;
     std::size_t offset = 0;
@@ -20,7 +20,7 @@ struct Line {
 
 class LineReader {
 public:
-    /// Lines from `begin` on.
+    /// Reads the lines from `begin` on.
     explicit LineReader(std::string_view text, std::size_t begin = 0) : text_(text), next_(begin) {}
 
     bool at_end() const { return next_ >= text_.size(); }
@@ -48,7 +48,7 @@ struct Field {
     std::size_t offset = 0;
 };
 
-/// The fields of one line, parted by blanks. What is missing or wrong is a Fault at its place.
+/// Reads the fields of one line, separated by blanks. A missing or wrong field is a Fault at its position.
 class Fields {
 public:
     explicit Fields(const Line& line) : line_(line) { skip_blanks(); }
@@ -64,7 +64,7 @@ public:
         skip_blanks();
         return field;
     }
-    /// What is left of the line; then nothing is.
+    /// Takes the rest of the line.
     Field rest() {
         const Field field{line_.text.substr(at_), offset()};
         at_ = line_.text.size();

@@ -1,4 +1,4 @@
-// Solids of the older text form that are made of many points.
+// Meshes: solids of the older text form that are made of many points.
 //
 //     t name mode orientation 0 vertices faces   lines "n: x y z", lines "n: a b c", for plates with the thickness
 //                                                behind and a last line with a bit for each face

@@ -1,4 +1,4 @@
-// BRL-CAD's older text form: a record a line, its kind the first letter.
+// Reader of BRL-CAD's older text form: a record a line, its kind the first letter.
 //
 //     I units version            then a line with the title
 //     S type name comgeom 24 numbers, and n s t w p N P b A e c d: solids
@@ -7,8 +7,8 @@
 //                                then M operator member 16 numbers, one for each member
 //     m flags low high r g b     the colour of region ids low to high
 //
-// Lengths are millimetres; I's unit is for display. A matrix stands row by row. Members combine from left to right:
-// a union starts a new term, + - ^ apply to the term so far; the first operator has no meaning.
+// Lengths are millimetres; I's unit is for display. A matrix stands row by row. Members combine from left to right: a
+// union starts a new term, + - ^ apply to the term so far; the first operator has no meaning.
 #include <iterator>
 #include <utility>
 #include <vector>
@@ -39,7 +39,7 @@ Operator operator_of(const Field& field) {
     throw Fault{field.offset, quoted(field.text) + " is no operator", "operators are u + - ^"};
 }
 
-/// The tree of a combination's members; a run of one operator is one node.
+/// The tree of a combination's members; neighbours with one operator are one node.
 Tree tree_of(std::vector<Member> members) {
     Tree tree;
     std::uint32_t terms = 0;
@@ -66,7 +66,7 @@ Tree tree_of(std::vector<Member> members) {
     return tree;
 }
 
-/// Whether the line can be a record's first, not the data of one.
+/// Whether the line can be a record's first, not a line of its data.
 bool starts_record(const Line& line) {
     return line.text.size() > 1 && line.text[1] == ' ' &&
            std::string_view("ISCMmABPQDF#").find(line.text[0]) != std::string_view::npos;
@@ -135,7 +135,7 @@ private:
         }
     }
 
-    /// A record that ends with the file tells that the file is cut off.
+    /// Adds a broken object. A record at the end of the file shows that the file is cut off.
     void add_broken(const char* type, Fault fault) {
         if (source_.text().find_first_not_of(" \t\r\n", fault.offset) == std::string_view::npos) {
             findings_.add(std::move(fault), object_);
@@ -173,7 +173,7 @@ private:
         }
     }
 
-    /// One finding for a run of lines that have lost their record.
+    /// Adds one finding for neighbouring lines without a record.
     void refuse_record(const Line& line) {
         const char first = line.text[0];
         while (!lines_.at_end() && lines_.peek().text.starts_with(first)) lines_.take();
@@ -181,7 +181,7 @@ private:
         throw Fault{line.offset, "this is no record of a v4 database", "records start with a letter: I S C M m ..."};
     }
 
-    /// What is left of a broken solid's lines.
+    /// Skips the other lines of a broken solid.
     void skip_data() {
         while (!lines_.at_end() && !lines_.peek().text.empty() &&
                std::string_view(" \t+-.0123456789QB").find(lines_.peek().text[0]) != std::string_view::npos) {
@@ -251,14 +251,14 @@ private:
         object_ = combination.name;
         combination.region_id = fields.integer("the region id");
         combination.air = fields.integer("the air code");
-        fields.integer("the number of members");  // many files have it wrong; the lines count
+        fields.integer("the number of members");  // wrong in many files; the lines count
         fields.integer("the COMGEOM number");
         combination.material_id = fields.integer("the material");
         combination.los = fields.integer("the line-of-sight equivalent");
         const bool has_color = fields.integer("the colour's flag") != 0;
         if (const Vec3 color = read_rgb(fields); has_color) combination.color = color;
 
-        // The oldest files end here, later ones after the shader's flag.
+        // The oldest files end here, later files after the shader's flag.
         const bool has_shader = fields.more() && fields.integer("the shader's flag") != 0;
         const bool has_parameters = fields.more() && fields.integer("the parameters' flag") != 0;
         const bool inherits = fields.more() && fields.integer("the inheritance") != 0;
@@ -294,7 +294,7 @@ private:
     Findings findings_;
     LineReader lines_;
     BrlcadObjects objects_;
-    std::string object_;  ///< the name of what is being read, as far as it is known
+    std::string object_;  ///< the name of the current object, as far as it is known
 };
 
 }  // namespace

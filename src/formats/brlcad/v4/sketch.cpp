@@ -39,7 +39,7 @@ double number(Fields& fields, const char* what) {
     return read_number(field.text, field.offset);
 }
 
-/// All of a line: as many as are announced.
+/// Reads all vertices of a line: as many as are announced.
 std::vector<std::uint32_t> vertices_of(const Line& line, std::int64_t count, std::size_t end) {
     Fields fields(line);
     std::vector<std::uint32_t> out;

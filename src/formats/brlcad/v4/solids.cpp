@@ -14,18 +14,18 @@ namespace {
 
 using Parameters = std::array<double, 24>;
 
-/// How far a torus' tube may exceed its circle and still be the same length, rounded to a v4 database's floats.
+/// The length by which a torus' tube may exceed its circle and still be equal, rounded to a v4 database's floats.
 constexpr double torus_rounding = 1e-6;
 
-/// An arbn of an absurd number of faces must not make the reader wait for it.
+/// The most faces of an arbn: the reader must not wait for an absurd number.
 constexpr int max_faces = static_cast<int>(Limits::faces);
 
 Vec3 vec3_at(const Parameters& p, std::size_t at) { return {p[at], p[at + 1], p[at + 2]}; }
 
-/// Rounded as where BRL-CAD turns these databases into .g files, so that both give the same scene.
+/// The length, rounded as in BRL-CAD's conversion of these databases to .g files, so that both give the same scene.
 double length(const Vec3& v) { return std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z); }
 
-/// The numbers stand in the order of the description.
+/// Reads numbers in the order of the description.
 template <class S>
 Shape described(std::span<const double> numbers) {
     std::size_t at = 0;
@@ -43,7 +43,7 @@ Shape torus(const Parameters& p) {
     return Tor{vec3_at(p, 0), {h.x * f, h.y * f, h.z * f}, r_a, r_h};
 }
 
-/// The first vertex is absolute, the others stand relative to it.
+/// Reads an arb8. The first vertex is absolute, the others are relative to it.
 Shape arb8(const Parameters& p) {
     Arb arb;
     arb.vertices[0] = vec3_at(p, 0);
@@ -87,7 +87,7 @@ Shape shape_of(int number, const Parameters& p, const Field& type) {
     }
 }
 
-/// `S type name comgeom-type` and 24 numbers, of which most solids use fewer.
+/// Reads `S type name comgeom-type` and 24 numbers, of which most solids use fewer.
 BrlcadItem parameter_solid(Fields& fields, std::string& name) {
     const Field type = fields.next("the solid's type");
     const int number = read_integer(type.text, type.offset, 0, 127);
@@ -100,7 +100,7 @@ BrlcadItem parameter_solid(Fields& fields, std::string& name) {
     return {shape_of(number, p, type)};
 }
 
-/// `n name count`, then a line `n x y z distance` for each plane. All lines are taken even if one is wrong.
+/// Reads `n name count`, then a line `n x y z distance` for each plane. All lines are taken even if one is wrong.
 Shape arbn(Fields& fields, LineReader& lines, std::string& name) {
     name = fields.next("the solid's name").text;
     const int count = fields.integer("the number of planes", 1, max_faces);
@@ -127,7 +127,7 @@ Shape arbn(Fields& fields, LineReader& lines, std::string& name) {
     return solid;
 }
 
-/// Takes `count` lines that start with one of `starts`; a Fault if there are fewer.
+/// Takes `count` lines that start with one of `starts`; throws a Fault if there are fewer.
 void take_lines(LineReader& lines, std::uint64_t count, std::string_view starts, const char* what) {
     for (std::uint64_t i = 0; i < count; ++i) {
         const Line line = lines.peek();
@@ -147,7 +147,7 @@ Shape polysolid(LineReader& lines) {
 }
 
 Shape spline(Fields& fields, LineReader& lines) {
-    constexpr int max_mesh = 32'767;  // a record holds it in 16 bits
+    constexpr int max_mesh = 32'767;  // the count has 16 bits in a record
     const std::uint64_t surfaces = fields.count("the number of surfaces");
     for (std::uint64_t i = 0; i < surfaces; ++i) {
         const Line head = lines.peek();
@@ -166,7 +166,7 @@ Shape spline(Fields& fields, LineReader& lines) {
     return Unsupported{"bspline"};
 }
 
-/// `s type name parameters`: key=value, but for types that csgrt does not know any text.
+/// Reads `s type name parameters`: key=value, except for types that csgrt does not know, which may have any text.
 BrlcadItem string_solid(Fields& fields, std::string& name) {
     const std::string type(fields.next("the solid's type").text);
     name = fields.next("the solid's name").text;

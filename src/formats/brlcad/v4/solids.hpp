@@ -8,14 +8,14 @@
 
 namespace csgrt {
 
-/// Whether a record of that letter is a solid, or a part of one.
+/// Whether a record of this letter is a solid, or a part of one.
 bool is_v4_solid(char letter);
 
-/// The object that `line` starts; takes the further lines that belong to it. `name` is set as soon as it is known, also
-/// when a Fault leaves.
+/// Reads the object that `line` starts, and takes its other lines. `name` is set as soon as it is known, also when a
+/// Fault is thrown.
 BrlcadItem read_v4_solid(const Line& line, LineReader& lines, std::string& name);
 
-// Its parts, by family. The record's letter is read, and its name too but for those that set it.
+// Readers of single types, by family. The record's letter is read already, and its name, except by those that set it.
 Shape read_v4_bot(Fields& fields, LineReader& lines);
 Shape read_v4_pipe(Fields& fields, LineReader& lines);
 Shape read_v4_ars(Fields& fields, LineReader& lines, std::string& name);

@@ -16,7 +16,7 @@ namespace {
 
 constexpr int any_low = -2'147'483'647, any_high = 2'147'483'647;
 
-/// The spelling that BRL-CAD writes today.
+/// Is the spelling of a key the one that BRL-CAD writes today?
 bool is_standard(std::string_view key) {
     constexpr std::string_view keys[] = {"region", "region_id", "aircode", "material_id",
                                          "los",    "color",     "shader",  "inherit"};
@@ -34,7 +34,7 @@ bool read_flag(const TclWord& word) {
     throw Fault{word.offset, quoted(word.text) + " is neither yes nor no", {}};
 }
 
-/// R is a region; P and V are regions of FASTGEN, a plate and a volume.
+/// Reads a region's flag. R is a region; P and V are regions of FASTGEN, a plate and a volume.
 void read_region_flag(Combination& combination, const TclWord& word) {
     combination.fastgen = fastgen_of(word.text);
     combination.region = word.text == "R" || combination.fastgen != Fastgen::none || read_flag(word);
@@ -42,7 +42,7 @@ void read_region_flag(Combination& combination, const TclWord& word) {
 
 int read_any_integer(const TclWord& word) { return read_integer(word.text, word.offset, any_low, any_high); }
 
-/// "r/g/b" or "r g b".
+/// Reads "r/g/b" or "r g b".
 Vec3 read_color(const TclWord& word) {
     constexpr std::string_view separators = "/ \t,";
     int components[3];
@@ -62,14 +62,14 @@ Vec3 read_color(const TclWord& word) {
     return color_of_bytes(components[0], components[1], components[2]);
 }
 
-/// Here the unit is its length in millimetres, any length. It is for display only, so one that has no meaning is borne,
-/// as BRL-CAD does.
+/// Reads the unit: here it is a length in millimetres. It is for display only, so a length without meaning is
+/// tolerated, as in BRL-CAD.
 void set_unit_length(Scene& scene, const TclWord& value, const Source& source) {
     double length = 0;
     try {
         length = read_number(value.text, value.offset);
     } catch (const Fault&) {
-        // told below
+        // reported below
     }
     if (length > 0) {
         scene.units = unit_name(length);

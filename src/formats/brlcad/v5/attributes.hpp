@@ -16,18 +16,18 @@ struct Attribute {
     TclWord value;
 };
 
-/// Sets what the key stands for, in any of BRL-CAD's spellings; false if it is not one that csgrt knows. Throws Fault.
+/// Sets the member of an attribute, in any of BRL-CAD's spellings; false if csgrt does not know the key. Throws Fault.
 bool set_attribute(Combination& combination, const Attribute& attribute);
 
-/// Sets all that csgrt knows. Where one thing is given in two spellings (shader and oshader), the standard one holds,
-/// whatever their order, as in BRL-CAD. What is wrong with one is borne, if `findings` can; the others hold.
+/// Sets all attributes that csgrt knows. If two spellings of one key are given (shader and oshader), the standard one
+/// counts, whatever their order, as in BRL-CAD. A wrong attribute is tolerated if `findings` can; the others count.
 void set_attributes(Combination& combination, std::span<const Attribute> attributes, Findings& findings);
 
-/// Sets the title, the unit or the region colours, which _GLOBAL, the database itself, has as attributes; other keys
-/// are passed over. A unit that is none is a warning. Throws Fault.
+/// Sets the title, the unit or the region colours, the attributes of _GLOBAL, the database itself; other keys are
+/// ignored. An unknown unit is a warning. Throws Fault.
 void set_global_attribute(Scene& scene, const Attribute& attribute, const Source& source);
 
-/// An entry of the colour table: low high red green blue. Throws Fault.
+/// Reads an entry of the colour table: low high red green blue. Throws Fault.
 RegionColor read_region_color(std::span<const TclWord, 5> numbers);
 
 }  // namespace csgrt

@@ -1,4 +1,4 @@
-// Solids of the newer text form whose cells stand in a file or an object of their own.
+// Cells: solids of the newer text form whose cells stand in a file or an object of their own.
 
 #include "formats/brlcad/codes.hpp"
 #include "formats/brlcad/v5/solids.hpp"
@@ -8,7 +8,7 @@ namespace csgrt {
 
 namespace {
 
-/// "o": cells in an object; "f", or as older databases have it "4": in a file.
+/// Reads the source. "o": cells in an object; "f", or in older databases "4": in a file.
 bool read_source(Parameters& p) {
     if (!p.has("src")) return false;
     const TclWord& word = p.take("src");
@@ -17,8 +17,8 @@ bool read_source(Parameters& p) {
     throw Fault{word.offset, quoted(word.text) + " is no kind of source", "f is a file, o an object"};
 }
 
-/// Where the cells are. BRL-CAD writes it as file, as name or as both, older programs as F; of several the last one
-/// holds, as in BRL-CAD.
+/// Reads the name of the cells' source. BRL-CAD writes it as file, as name or as both, older programs as F; of several
+/// the last one counts, as in BRL-CAD.
 std::string read_name(Parameters& p) {
     std::string_view last = "file";
     for (const std::string_view key : {"file", "F", "name"}) {
@@ -74,7 +74,7 @@ BrlcadItem read_v5_dsp(Parameters& p) {
     return {Shape(std::move(dsp)), in_object};
 }
 
-/// T is the type of the numbers, D their bytes as hexadecimal digits, with blanks and newlines between.
+/// Reads numbers. T is their type, D their bytes as hexadecimal digits, with blanks and newlines between.
 BrlcadNumbers read_v5_numbers(Parameters& p) {
     BrlcadNumbers numbers;
     numbers.type = p.integer("T", 0, 255);

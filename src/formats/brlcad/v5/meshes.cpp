@@ -1,4 +1,4 @@
-// Solids of the newer text form that are made of many points.
+// Meshes: solids of the newer text form that are made of many points.
 #include "formats/brlcad/codes.hpp"
 #include "formats/brlcad/v5/solids.hpp"
 #include "formats/brlcad/values.hpp"

@@ -1,4 +1,4 @@
-// Keys and values of BRL-CAD's newer text form.
+// Parameters: keys and values of BRL-CAD's newer text form.
 #pragma once
 
 #include <array>
@@ -22,18 +22,18 @@ constexpr int largest_integer = std::numeric_limits<int>::max();
 
 using Triangle = std::array<std::uint32_t, 3>;
 
-/// The keys of one solid (or of a part of one) and their values. What is read is taken; `end` refuses what is left.
-/// What is missing or wrong is a Fault at its place.
+/// Reads the keys of one solid (or of a part of one) and their values. Each call takes a value; `end` refuses those
+/// left. A missing or wrong value is a Fault at its position.
 class Parameters {
 public:
-    /// Values of the key `repeatable` are kept apart: it may stand more than once.
+    /// The values of the key `repeatable` are kept apart: it may stand more than once.
     Parameters(const TclWord& type, std::span<const TclWord> words, TclStore& store, std::string_view repeatable = {});
 
     bool has(std::string_view key) const { return values_.count(key) != 0; }
-    /// Of several spellings of a key the one that is there; the first if none is.
+    /// Returns the spelling of a key that is there; the first if none is.
     std::string_view one_of(std::initializer_list<std::string_view> keys) const;
 
-    /// Where the key's value stands; the solid's type if it is missing.
+    /// The position of the key's value, or of the solid's type if it is missing.
     std::size_t place_of(std::string_view key) const;
     const TclWord& take(std::string_view key);
     double number(std::string_view key);
@@ -78,7 +78,7 @@ private:
     std::vector<const TclWord*> repeated_;
 };
 
-/// The elements of a list that are whole numbers below `end`.
+/// The elements of a list, whole numbers below `end`.
 std::vector<std::uint32_t> read_v5_indices(const TclWord& list, std::size_t end, TclStore& store);
 
 }  // namespace csgrt

@@ -1,10 +1,10 @@
-// BRL-CAD's newer text form, a script of Tcl commands:
+// Reader of BRL-CAD's newer text form, a script of Tcl commands:
 //
 //     title {text}    units mm
 //     color low high r g b                    the colour of region ids low to high
 //     put {name} type key value ...           a solid
 //     put {name} comb region yes tree {...}   a combination
-//     attr set {name} {key} {value} ...       what else belongs to an object, or to _GLOBAL, the database
+//     attr set {name} {key} {value} ...       attributes of an object, or of _GLOBAL, the database
 //
 // Lengths are millimetres; the unit is for display.
 #include <algorithm>
@@ -26,7 +26,7 @@ namespace csgrt {
 
 namespace {
 
-/// Bytes. A brace that is never closed is looked for to the end of the file, and reading goes on behind it.
+/// Bytes that may be read twice: an unclosed brace is searched to the end of the file, and reading goes on behind it.
 constexpr std::size_t most_read_again = std::size_t{1} << 28;
 
 class V5Reader {
@@ -45,7 +45,7 @@ public:
             try {
                 if (!commands_.next_command(words_)) break;
             } catch (Fault& fault) {
-                // What was read of the command tells whose it is.
+                // The words of the command that were read name its object.
                 if (words_.size() > 1 && words_[0].text == "put") {
                     object_ = tcl_name(words_[1]);
                     broken_.insert(object_);
@@ -77,7 +77,7 @@ private:
         throw Fault{end, std::string("the command ends early: ") + what + " is missing", {}};
     }
 
-    /// A command that is none tells that this is another kind of file.
+    /// Tolerates a fault, unless the command is unknown: then the file is of another kind.
     void bear(Fault fault) {
         const std::string_view command = words_[0].text;
         if (command == "put") {
@@ -150,7 +150,7 @@ private:
                 combination.tree = read_v5_tree(value, source_, object_, store_);
                 continue;
             }
-            if (key.text == "material" || key.text == "temp") continue;  // of which no shape or colour follows
+            if (key.text == "material" || key.text == "temp") continue;  // no shape or colour depends on these
             try {
                 if (!set_attribute(combination, {key.text, value}))
                     throw Fault{key.offset, quoted(key.text) + " is no parameter of a comb", {}};
@@ -187,7 +187,7 @@ private:
             throw Fault{name.offset, "no object of that name stands before this line", {}};
         }
         Combination* combination = objects_.find_combination(object_);
-        if (combination == nullptr) return;  // those of a solid do not matter to its shape
+        if (combination == nullptr) return;  // attributes of a solid do not change its shape
         set_attributes(*combination, attributes, findings_);
     }
 
@@ -199,8 +199,9 @@ private:
     TclReader commands_;
     std::vector<TclWord> words_;
     BrlcadObjects objects_;
-    std::unordered_set<std::string> broken_;  ///< objects whose put had a finding; their attributes are not another
-    std::string object_;                      ///< the name of what is being read, as far as it is known
+    std::unordered_set<std::string> broken_;  ///< objects whose put had a finding; their attributes give no second
+                                              ///< finding
+    std::string object_;                      ///< the name of the current object, as far as it is known
 };
 
 }  // namespace

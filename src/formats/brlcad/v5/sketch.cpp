@@ -45,7 +45,7 @@ Sketch::Curve bezier(Parameters& p, std::size_t vertices) {
 Sketch::Curve nurb(Parameters& p, std::size_t vertices) {
     Sketch::Nurb curve;
     curve.order = p.count("O");
-    if (p.has("T")) p.take("T");  // what a point has; the weights say as much
+    if (p.has("T")) p.take("T");  // the kind of the points; the weights show it, too
     const std::size_t knots_at = p.place_of("K");
     curve.knots = p.all_numbers("K");
     curve.points = p.indices("P", vertices);
@@ -67,7 +67,7 @@ Sketch::Curve nurb(Parameters& p, std::size_t vertices) {
     return curve;
 }
 
-/// {line S 0 E 1}: a type, keys and values.
+/// Reads {line S 0 E 1}: a type, keys and values.
 Sketch::Curve read_curve(const TclWord& word, std::size_t vertices, TclStore& store) {
     std::vector<TclWord> words;
     TclList list(word, store);
@@ -89,7 +89,7 @@ Sketch::Curve read_curve(const TclWord& word, std::size_t vertices, TclStore& st
 
 }  // namespace
 
-/// The plane V A B of a sketch does not matter to the solids that it makes: they have their own.
+/// The plane V A B of a sketch is not used: the solids that it makes have their own.
 Sketch read_v5_sketch(Parameters& p) {
     for (const std::string_view key : {"V", "A", "B"}) p.vec3(key);
     Sketch sketch;
@@ -105,7 +105,7 @@ Sketch read_v5_sketch(Parameters& p) {
 Shape read_v5_extrude(Parameters& p) {
     Extrude solid{p.vec3("V"), p.vec3("H"), p.vec3("A"), p.vec3("B"), {}};
     solid.sketch.name = p.take("S").text;
-    if (p.has("K")) p.integer("K", -largest_integer, largest_integer);  // which vertex is the key point, for an editor
+    if (p.has("K")) p.integer("K", -largest_integer, largest_integer);  // the key point's vertex, for an editor
     return solid;
 }
 

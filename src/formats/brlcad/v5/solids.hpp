@@ -1,4 +1,4 @@
-// Objects of BRL-CAD's newer text form that are no combinations: put name type key value key value ...
+// Solids and other objects of BRL-CAD's newer text form, except combinations: put name type key value key value ...
 #pragma once
 
 #include <span>
@@ -11,11 +11,11 @@
 
 namespace csgrt {
 
-/// The object of that type with those keys and values; solids of types that csgrt does not know are Unsupported, their
-/// values unread. Throws Fault for keys that are missing, unknown or given twice, and for values that are no numbers.
+/// Reads an object of a type with keys and values. Solids of types that csgrt does not know are Unsupported, their
+/// values unread. Throws Fault for keys that are missing, unknown or given twice, and for values that are not numbers.
 BrlcadItem read_v5_object(const TclWord& type, std::span<const TclWord> keys_and_values, TclStore& store);
 
-// Its parts, by family.
+// Readers of single types, by family.
 Shape read_v5_bot(Parameters& p);
 Shape read_v5_ars(Parameters& p);
 Shape read_v5_nmg(Parameters& p);

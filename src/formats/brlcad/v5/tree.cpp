@@ -22,7 +22,7 @@ std::optional<Operator> operator_of(std::string_view token) {
     return std::nullopt;
 }
 
-/// One pass over the text: an operator is put on `open_` when its node starts and into the tree when its node ends.
+/// Reads the text in one pass: an operator is put on `open_` when its node starts and into the tree when its node ends.
 class TreeReader {
 public:
     TreeReader(const TclWord& word, const TextSource& source, const std::string& object, TclStore& store)
@@ -49,14 +49,14 @@ public:
     }
 
 private:
-    /// Where the nodes of an operand begin in the tree. It has none if it is the empty set: what it is combined with is
-    /// known then, so the tree never holds one.
+    /// The first node of an operand in the tree. The empty set has no nodes: it is folded into its operator at once, so
+    /// the tree never holds one.
     struct Operand {
         std::size_t first;
         bool empty;
     };
     struct OpenNode {
-        Operator op;  ///< leaf: G or X, which hold what their operand holds
+        Operator op;  ///< leaf: G or X, whose node is its operand's
         std::size_t at;
         std::vector<Operand> operands{};
     };
@@ -66,7 +66,7 @@ private:
     [[noreturn]] void fail(std::size_t at, std::string message, std::string suggestion = {}) const {
         throw Fault{word_.offset_at(at), std::move(message), std::move(suggestion)};
     }
-    /// Blanks are also the backslash that continues a line.
+    /// Skips blanks, and the backslash that continues a line.
     void skip_blanks() {
         while (!at_end()) {
             const std::string_view rest = word_.text.substr(at_);
@@ -117,7 +117,7 @@ private:
         end_node({left.first, false});
     }
 
-    /// What an operator makes of operands of which at least one is the empty set.
+    /// The result of an operator over operands of which at least one is the empty set.
     Operand combined_with_nothing(const OpenNode& node, const Operand& left, const Operand& right) {
         if (node.op == Operator::not_) {
             fail(node.at, "the complement of nothing is all space, which no region can hold");
@@ -130,7 +130,7 @@ private:
         return {left.first, left.empty && right.empty};
     }
 
-    /// A node is complete: its closing brace makes it an operand of the operator around it.
+    /// Ends a node: its closing brace makes it an operand of the operator around it.
     void end_node(const Operand& operand) {
         if (open_.empty()) return;
         skip_blanks();
@@ -140,7 +140,8 @@ private:
         open_.back().operands.push_back(operand);
     }
 
-    /// What follows the l, up to the brace that ends the node (or the end of the text, if the leaf is the whole tree).
+    /// Reads the part of a leaf behind the l, up to the brace that ends the node (or the end of the text, if the leaf
+    /// is the whole tree).
     void read_leaf() {
         const std::size_t end = open_.empty() ? word_.text.size() : closing_brace();
         TclWord body = word_;

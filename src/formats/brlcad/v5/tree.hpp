@@ -1,4 +1,4 @@
-// Boolean trees of BRL-CAD's newer text form: {u {l a} {- {l b} {l c {matrix}}}}.
+// Trees (Boolean) of BRL-CAD's newer text form: {u {l a} {- {l b} {l c {matrix}}}}.
 #pragma once
 
 #include <string>
@@ -9,9 +9,9 @@
 
 namespace csgrt {
 
-/// The tree that a word holds; an empty word is the empty tree. A node is `l name`, `l name matrix`, or an operator and
-/// its operands, each in braces: two for u (union), n or + (intersection), - and ^ (xor), one for !. Throws Fault.
-/// Needs no stack, however deep the tree. `object` is the combination's name, for the places of the nodes.
+/// Reads the tree of a word; an empty word is the empty tree. A node is `l name`, `l name matrix`, or an operator and
+/// its operands, each in braces: two for u (union), n or + (intersection), - and ^ (xor), one for !. Throws Fault. It
+/// needs no stack, however deep the tree is. `object`: the combination's name, for the places of the nodes.
 Tree read_v5_tree(const TclWord& word, const TextSource& source, const std::string& object, TclStore& store);
 
 }  // namespace csgrt

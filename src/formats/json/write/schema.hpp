@@ -1,5 +1,4 @@
-// The schema of scene files, for editors: scenes/csgrt.schema.json, made from the descriptions that the reader goes
-// over.
+// Schema of scene files, for editors: scenes/csgrt.schema.json, made of the same descriptions as the reader.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// Lengths in the unit of the file that is written.
+// Unit: lengths in the unit of the file that is written.
 #pragma once
 
 #include <cmath>
@@ -10,8 +10,8 @@
 
 namespace csgrt {
 
-/// Converts millimetres to a unit, and notes what would not read back: a number that is not finite, or a length for
-/// which no double times the unit gives the same bits.
+/// Converts millimetres to a unit, and notes values that would not read back: a number that is not finite, or a length
+/// for which no double times the unit gives the same bits.
 class JsonUnit {
 public:
     explicit JsonUnit(double millimetres) : unit_(millimetres) {}

@@ -12,7 +12,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-/// Operators inside operators up to this are written nested, each of them two brackets; the reader allows
+/// The depth of operators up to which trees are written nested, each operator two brackets; the reader allows
 /// Limits::file_nesting brackets in all. Deeper trees are written in postfix form, which does not nest.
 constexpr std::size_t deepest_nested = 100;
 
@@ -35,7 +35,7 @@ ordered_json json_of_leaf(const TreeNode& leaf, JsonUnit& unit) {
     return out;
 }
 
-/// How many operators stand above the deepest leaf; nothing if the nodes are no tree.
+/// The number of operators above the deepest leaf; nothing if the nodes are not a tree.
 std::optional<std::size_t> depth_of(const Tree& tree) {
     std::vector<std::size_t> waiting;
     for (const TreeNode& node : tree.nodes) {
@@ -93,7 +93,8 @@ ordered_json json_of(const Tree& tree, JsonUnit& unit, std::string& fault) {
     return *depth > deepest_nested ? json_of_postfix(tree, unit) : json_of_nested(tree, unit);
 }
 
-/// The shader is always written, so that the finish is there again when all else is at its default.
+/// The JSON of a material. The shader is always written, so that the finish is there again when all other members have
+/// their defaults.
 ordered_json json_of_material(const std::optional<Vec3>& color, const std::optional<Finish>& finish, JsonUnit& unit) {
     ordered_json material = ordered_json::object();
     if (color) material["color"] = unit.vector(*color);

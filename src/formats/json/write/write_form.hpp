@@ -1,4 +1,4 @@
-// Writes what form::of<S> describes.
+// Writing by form: writes the structs that form::of<S> describes.
 #pragma once
 
 #include <algorithm>
@@ -15,8 +15,8 @@
 
 namespace csgrt {
 
-// A value that becomes an object or an array by an access, as written[key] of a null does, is left broken where memory
-// ends: so they are made as what they are.
+// Values are made as objects or arrays at once: a value that becomes one by an access, as written[key] of a null does,
+// is left broken if memory runs out.
 
 template <class S>
 nlohmann::ordered_json write_form(const S& s, JsonUnit& unit);
@@ -61,9 +61,9 @@ nlohmann::ordered_json write_value(const form::List<Item>& list, const std::vect
 nlohmann::ordered_json write_value(form::Corners, const auto& vertices, JsonUnit& unit) {
     return write_value(form::List{form::lengths}, std::vector<Vec3>(vertices.begin(), vertices.end()), unit);
 }
-/// A face of one loop is that loop.
+/// Writes a face. A face of one loop is this loop.
 nlohmann::ordered_json write_value(form::Loops, const std::vector<Nmg::Loop>& face, JsonUnit& unit);
-/// The first curve says that it is reversed even if it is not, unless the sketch says it of no curve.
+/// Writes curves. The first curve always says whether it is reversed, unless the sketch says it of no curve.
 nlohmann::ordered_json write_value(form::Curves, const Sketch& sketch, JsonUnit& unit);
 
 /// Whether two values are written alike.
@@ -76,7 +76,7 @@ bool same_value(const Value& a, const Value& b) {
     }
 }
 
-/// One value if all faces have the same, as most have.
+/// Writes one value if all faces have the same, as most have.
 template <class Item, class Value>
 nlohmann::ordered_json write_per_face(const form::PerFace<Item>& kind, const std::vector<Value>& values,
                                       std::size_t faces, JsonUnit& unit) {
@@ -86,7 +86,8 @@ nlohmann::ordered_json write_per_face(const form::PerFace<Item>& kind, const std
     return write_value(form::List{kind.item}, values, unit);
 }
 
-/// A string a row of `width` cells. Cells of 0 and `most` alone are a picture of '.' and '#', where marks are allowed.
+/// Writes a string for each row of `width` cells. If marks are allowed, cells of 0 and `most` alone are a picture of
+/// '.' and '#'.
 template <class Cell>
 nlohmann::ordered_json write_cells(form::Cells kind, const std::vector<Cell>& cells, std::size_t width) {
     const bool picture =
@@ -107,9 +108,9 @@ nlohmann::ordered_json write_cells(form::Cells kind, const std::vector<Cell>& ce
     return rows;
 }
 
-/// Under "matrix", unless it is what a file without one means.
+/// Writes the placement as "matrix", unless it is the default.
 void write_placement(nlohmann::ordered_json& out, const form::Placement& kind, const Matrix& m, JsonUnit& unit);
-/// Under "angle" in degrees, or under "radians".
+/// Writes the angle as "angle" in degrees, or as "radians".
 void write_turn(nlohmann::ordered_json& out, form::Turn, double angle, JsonUnit& unit);
 
 // ---- Members ----
@@ -119,7 +120,7 @@ bool is_usual(const S&, const Value& value, const At& at) {
     if constexpr (requires { value.empty(); }) {
         return value.empty();
     } else {
-        static const S& usual = *new const S(form::usual<S>());  // for threads that see exit(), too
+        static const S& usual = *new const S(form::usual<S>());  // never destroyed: threads may outlive exit()
         return same_value(value, std::invoke(at, usual));
     }
 }

@@ -1,4 +1,4 @@
-// One solid, one combination as JSON.
+// Objects as JSON: one solid, one combination.
 #pragma once
 
 #include <string>
@@ -11,10 +11,10 @@ namespace csgrt {
 
 class JsonUnit;
 
-/// {"type": ...}: a friendly type where that reads back to the same bits.
+/// {"type": ...}: a simple type if it reads back to the same bits.
 nlohmann::ordered_json json_of(const Shape& shape, JsonUnit& unit);
 
-/// {"tree": ...} with the attributes that differ from their defaults. A tree that is not one sets `fault`.
+/// {"tree": ...} with the attributes that differ from their defaults. Sets `fault` if the tree is not a tree.
 nlohmann::ordered_json json_of(const Combination& combination, JsonUnit& unit, std::string& fault);
 
 /// {"path": ..., "material": ..., "state": ...}

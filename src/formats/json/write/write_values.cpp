@@ -46,7 +46,7 @@ void write_turn(ordered_json& out, form::Turn, double angle, JsonUnit& unit) {
 
 namespace {
 
-/// The first of a shape's forms that it fits is written.
+/// Writes the shape in a form if it fits; the first of its forms that fits is used.
 template <class S, class Friendly>
 bool write_as(const S& s, JsonUnit& unit, ordered_json& out) {
     if constexpr (std::is_same_v<S, Friendly>) {

@@ -19,7 +19,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-/// What a section holds once it is known that JSON can hold it.
+/// An entry of a section that JSON can hold.
 struct Entry {
     const std::string* name;
     ordered_json value;
@@ -27,7 +27,7 @@ struct Entry {
 
 class SceneWriter {
 public:
-    /// `unit`: millimetres in the file's unit, called `unit_name`.
+    /// `unit`: millimetres in the file's unit, whose name is `unit_name`.
     SceneWriter(const Scene& scene, std::string unit_name, double unit)
         : scene_(scene), unit_name_(std::move(unit_name)), unit_(unit) {}
 
@@ -52,7 +52,8 @@ public:
 private:
     void fault(const Place& place, std::string message) { faults_.push_back({place, std::move(message), {}, {}}); }
 
-    /// JSON holds UTF-8 only. Reports the object if the value holds anything else, or a number that is not finite.
+    /// Reports the object if its value holds bytes that are not UTF-8, or a number that is not finite: JSON holds
+    /// neither.
     void check(const Place& place, const std::string& what, const ordered_json& value) {
         if (!unit_.finite()) fault(place, what + " has a number that is not finite, which JSON cannot hold");
         unit_.forget_infinities();
@@ -109,7 +110,7 @@ private:
         return entries;
     }
 
-    /// The names of all objects, if solids and combinations take turns; else nothing: the sections are the order.
+    /// The names of all objects, if solids and combinations alternate; else nothing: the sections give the order.
     ordered_json json_of_order() const {
         const auto is_solid = [](const Object& object) { return std::holds_alternative<Solid>(object); };
         ordered_json names = ordered_json::array();

@@ -1,4 +1,4 @@
-// Scenes as csgrt's own format.
+// Writer of csgrt's own scene format.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 namespace csgrt {
 
 /// The text of a .json file that reads back to the same scene, bit for bit. Lengths are written in the scene's units if
-/// every one of them reads back exactly, else in millimetres. Throws Error (scene), with every finding, for what JSON
+/// every length reads back exactly, else in millimetres. Throws Error (scene), with every finding, for values that JSON
 /// cannot hold: numbers that are not finite, names that are not UTF-8 or stand twice, trees that are not trees.
 std::string json_scene_text(const Scene& scene);
 
