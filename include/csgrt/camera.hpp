@@ -1,4 +1,4 @@
-// From where a picture is taken.
+// Camera: the point of view of a picture.
 #pragma once
 
 #include <optional>
@@ -7,12 +7,12 @@
 
 namespace csgrt {
 
-/// The view is BRL-CAD's: a rectangle, centred on the model's box by default. The sides of that box are moved outward
-/// to whole millimetres, unless its diagonal is less than one. Lengths and coordinates are millimetres, angles degrees.
-/// Functions that take a Camera throw Error (usage) if its members contradict each other or are out of range.
+/// A camera has BRL-CAD's view: a rectangle, centred on the model's box by default. The sides of that box are moved
+/// outward to whole millimetres, unless its diagonal is less than one. Lengths and coordinates are millimetres, angles
+/// degrees. Functions that take a Camera throw Error (usage) if its members contradict each other or are out of range.
 ///
 /// An orthographic view has no eye. Its rays start on a plane in front of the whole model, so that all of the model is
-/// seen however small the view is. That plane cuts half-spaces, which have no end.
+/// seen however small the view is. The plane also cuts half-spaces, which extend to infinity.
 struct Camera {
     double azimuth = 35;     ///< Degrees of the direction from the model to the eye: from +x about z.
     double elevation = 25;   ///< Degrees of the same direction above the xy plane.

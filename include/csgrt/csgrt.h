@@ -1,21 +1,21 @@
 // csgrt in C99: exact ray tracing of Constructive Solid Geometry. Functions and members have the names of the C++
 // headers beside this one, which say more of each; examples/partitions.c is a whole program.
 //
-// What holds everywhere unless a comment says otherwise:
-// - A call returns CSGRT_OK, or what failed; then csgrt_last_error() has the text, a handle that it would have made is
-//   NULL, and what else it fills is not to be used. No C++ exception leaves a call.
-// - A handle that a call puts into a `csgrt_x**` is the caller's, who frees it with csgrt_x_free(), which takes NULL.
-//   Handles keep what they need of others, which may be freed before them. Calls copy what they are given.
-// - A pointer that a call hands out is valid as long as its handle, and until the next call that changes the handle.
+// Rules that hold unless a comment says otherwise:
+// - A call returns CSGRT_OK, or the kind of its failure. After a failure csgrt_last_error() has the text, a handle that
+//   the call would have made is NULL, and other results are not to be used. No C++ exception leaves a call.
+// - A handle that a call puts into a `csgrt_x**` is the caller's, who frees it with csgrt_x_free(), which takes NULL. A
+//   handle may be freed before handles that were made from it. Calls copy their arguments.
+// - A pointer that a call returns is valid as long as its handle, and until the next call that changes the handle.
 // - Structs that may grow begin with their size and with defaults, as in `csgrt_view view = CSGRT_VIEW;`, also those
 //   that calls fill. All defaults are at the end of this header. Of a shorter struct, from the header of an earlier
 //   version, the members that are not there have their defaults.
-// - A pointer to several things has a count beside it; both may be 0. Text is UTF-8 and ends with 0; no text is "".
+// - A pointer to several values has a count beside it; both may be 0. Text is UTF-8 and ends with 0; no text is "".
 // - Lengths are millimetres, angles degrees, z is up, matrices are 4 x 4, row by row, for column vectors. Distances
 //   along a ray are in lengths of its direction. Colours are red, green and blue, from 0 to 1.
-// - Threads. csgrt_model: any number at a time. csgrt_scene: any number that read it (as const), or one
-//   that changes it. csgrt_renderer, csgrt_edit, csgrt_partitions, csgrt_image, csgrt_verifier: one at a time, not
-//   always the same one; csgrt_renderer_model() and csgrt_renderer_set_model() may be called meanwhile.
+// - Threads. csgrt_model: any number at a time. csgrt_scene: any number that read it (as const), or one that changes
+//   it. csgrt_renderer, csgrt_edit, csgrt_partitions, csgrt_image, csgrt_verifier: one at a time, not always the same
+//   one; csgrt_renderer_model() and csgrt_renderer_set_model() may be called meanwhile.
 #ifndef CSGRT_CSGRT_H
 #define CSGRT_CSGRT_H
 
@@ -48,29 +48,29 @@ typedef enum csgrt_status {
     CSGRT_ERROR_OUT_OF_MEMORY = 5,
     CSGRT_ERROR_FILE = 6,
     CSGRT_ERROR_DEVICE_FAULT = 7,
-    CSGRT_ERROR_DIFFERS = 8,  ///< csgrt_verifier_result(): what was computed is wrong
+    CSGRT_ERROR_DIFFERS = 8,  ///< csgrt_verifier_result(): an answer is wrong
     CSGRT_ERROR_INTERRUPTED = 130
 } csgrt_status;
 
-/// One thing that is wrong, or that was tolerated.
+/// An error, or a fault that was tolerated.
 typedef struct csgrt_diagnostic {
     size_t size;
-    const char *message, *suggestion;  ///< what is wrong, and what was expected; what to do
-    const char *file, *pointer;        ///< where: the file, and a JSON pointer or an object's name in it
+    const char *message, *suggestion;  ///< the fault and what was expected; what to do
+    const char *file, *pointer;        ///< the place: the file, and a JSON pointer or an object's name in it
     const char* excerpt;               ///< the line of the file, with a caret under the place
     int line, column;                  ///< from 1; 0: unknown
     int64_t offset;                    ///< bytes; -1: unknown
-    uint64_t count;                    ///< how many times it occurs
-    int appearance;                    ///< 1: it changes colours alone
+    uint64_t count;                    ///< number of occurrences
+    int appearance;                    ///< 1: the fault changes colours alone
 } csgrt_diagnostic;
 
-/// Of the last call of this thread that failed: all diagnostics as text, and each of them. The pointers are valid until
-/// the next call of this thread fails.
+/// The errors of the last call of this thread that failed: all diagnostics as text, and each of them. The pointers are
+/// valid until the next call of this thread fails.
 CSGRT_API const char* csgrt_last_error(void);
 CSGRT_API size_t csgrt_last_diagnostic_count(void);
 CSGRT_API csgrt_status csgrt_last_diagnostic(size_t index, csgrt_diagnostic* diagnostic);
 
-// ---- What calls are given ----
+// ---- Arguments of calls ----
 
 typedef struct csgrt_vec3 {
     double x, y, z;
@@ -84,7 +84,7 @@ typedef struct csgrt_plane {
     double distance;
 } csgrt_plane;
 
-/// Gets `user` and the done fraction, on the thread whose call it is. 0 ends the call (CSGRT_ERROR_INTERRUPTED).
+/// Called with `user` and the done fraction, on the calling thread. 0 ends the call (CSGRT_ERROR_INTERRUPTED).
 typedef int (*csgrt_progress)(void* user, double done);
 
 // Values of the members precision and tolerance_rule, as csgrt/method.hpp has them.
@@ -158,11 +158,12 @@ typedef struct csgrt_device_info {
     int fp64;
 } csgrt_device_info;
 
-/// Looks for all devices. Any thread. Then csgrt_device() of the same thread tells of each; its texts are valid until
-/// the thread looks again.
+/// Finds all devices. Any thread. Then csgrt_device() on the same thread returns each; its texts are valid until the
+/// thread calls csgrt_devices() again.
 CSGRT_API csgrt_status csgrt_devices(size_t* count);
 CSGRT_API csgrt_status csgrt_device(size_t index, csgrt_device_info* info);
-/// Starts the search on a thread of its own, and returns at once: before a scene is loaded it spares the wait.
+/// Starts the search for devices on a thread of its own, and returns at once: called before a scene is loaded, it saves
+/// the wait.
 CSGRT_API csgrt_status csgrt_prepare_devices(const csgrt_settings* settings);
 
 // ---- Scenes ----
@@ -189,16 +190,18 @@ CSGRT_API csgrt_status csgrt_scene_create(csgrt_scene** scene);
 CSGRT_API void csgrt_scene_free(csgrt_scene* scene);
 /// Writes .json.
 CSGRT_API csgrt_status csgrt_save_scene(const csgrt_scene* scene, const char* path);
-/// CSGRT_OK, or CSGRT_ERROR_SCENE: csgrt_last_diagnostic() has every error in what the objects reach. `objects` are
-/// names or paths; none: the scene's top objects. Of the settings, skip_unsupported and max_instances count.
+/// Returns CSGRT_OK, or CSGRT_ERROR_SCENE: csgrt_last_diagnostic() has every error in the objects and everything that
+/// they use. `objects` are names or paths; none: the scene's top objects. Of the settings, skip_unsupported and
+/// max_instances count.
 CSGRT_API csgrt_status csgrt_validate(const csgrt_scene* scene, const char* const* objects, size_t object_count,
                                       const csgrt_settings* settings);
 
-/// One member of a solid: as scenes/csgrt.schema.json and docs/scene-format.md have it, in millimetres and degrees.
+/// One member of a solid: its name as in scenes/csgrt.schema.json and docs/scene-format.md, its value in millimetres
+/// and degrees.
 typedef struct csgrt_member {
     const char* name;
-    const double* values;  ///< a number, or a vector; or a list of vectors: `columns` numbers each, one after the other
-    size_t count, columns;  ///< of all numbers; of a vector in a list, 0 if it is no list of vectors
+    const double* values;   ///< a number, a vector, or a list of vectors: `columns` numbers each, one after the other
+    size_t count, columns;  ///< of all numbers; of a vector in a list, or 0 if the value is not a list of vectors
     const char* json;       ///< in place of numbers, any value of JSON, such as "\"plate\""; NULL: the numbers
 } csgrt_member;
 #ifndef __cplusplus
@@ -206,8 +209,8 @@ typedef struct csgrt_member {
 #define CSGRT_MEMBER(name, ...) \
     { name, (const double[]){__VA_ARGS__}, sizeof((const double[]){__VA_ARGS__}) / sizeof(double), 0, NULL }
 #endif
-/// Adds a solid, with a type of the scene format: "sphere", "box", "cylinder", "ell", "tgc", ...
-/// CSGRT_ERROR_SCENE: what the type or the members lack.
+/// Adds a solid, with a type of the scene format: "sphere", "box", "cylinder", "ell", "tgc", ... CSGRT_ERROR_SCENE: the
+/// text names the fault of the type or the members.
 CSGRT_API csgrt_status csgrt_scene_add_solid(csgrt_scene* scene, const char* name, const char* type,
                                              const csgrt_member* members, size_t member_count);
 /// Adds a closed triangle mesh (a bot of mode `volume`). A face is three indices into the vertices.
@@ -228,7 +231,7 @@ typedef struct csgrt_tree_node {
     csgrt_operator op;
     uint32_t arity;        ///< of an operator
     const char* object;    ///< of a leaf: the name of a solid or a combination
-    const double* matrix;  ///< of a leaf: 16 numbers, from the object's coordinates to the tree's; NULL: the same
+    const double* matrix;  ///< of a leaf: 16 numbers, from the object's coordinates to the tree's; NULL: the identity
     const char* name;      ///< of a leaf: its name in paths; NULL: the object's
 } csgrt_tree_node;
 
@@ -245,7 +248,7 @@ typedef struct csgrt_finish {
     int infinite, visible, shadows;
 } csgrt_finish;
 
-/// csgrt::Combination: a Boolean tree under a name. With `region` it is one piece of material.
+/// csgrt::Combination: a Boolean tree under a name. With `region` it is one part of one material.
 typedef struct csgrt_combination {
     size_t size;
     const char* name;
@@ -294,7 +297,7 @@ typedef struct csgrt_light {
     csgrt_vec3 direction;
 } csgrt_light;
 CSGRT_API csgrt_status csgrt_scene_set_lights(csgrt_scene* scene, const csgrt_light* lights, size_t count);
-/// What is drawn by default: names or paths; none: what no other object uses.
+/// Sets the objects that are drawn by default: names or paths; none: the objects that no other object uses.
 CSGRT_API csgrt_status csgrt_scene_set_top(csgrt_scene* scene, const char* const* objects, size_t count);
 
 /// The plain members of csgrt::Scene.
@@ -309,10 +312,11 @@ typedef struct csgrt_scene_info {
 } csgrt_scene_info;
 CSGRT_API csgrt_status csgrt_scene_get_info(const csgrt_scene* scene, csgrt_scene_info* info);
 CSGRT_API csgrt_status csgrt_scene_set_info(csgrt_scene* scene, const csgrt_scene_info* info);
-/// The name of an object; its type: that of a solid ("ell"), "region" or "combination". Either may be NULL.
+/// The name and the type of an object. The type is a solid's ("ell"), "region" or "combination". Either pointer may be
+/// NULL.
 CSGRT_API csgrt_status csgrt_scene_object(const csgrt_scene* scene, size_t index, const char** name, const char** type);
 CSGRT_API csgrt_status csgrt_scene_top(const csgrt_scene* scene, size_t index, const char** object);
-/// What the file's reader tolerated: the object is `pointer`.
+/// A fault that the file's reader tolerated; `pointer` names the object.
 CSGRT_API csgrt_status csgrt_scene_warning(const csgrt_scene* scene, size_t index, csgrt_diagnostic* warning);
 
 // ---- Models ----
@@ -335,7 +339,7 @@ enum {  // fastgen
 CSGRT_API csgrt_status csgrt_model_create(const csgrt_scene* scene, const char* const* objects, size_t object_count,
                                           const csgrt_settings* settings, csgrt_model** model);
 CSGRT_API void csgrt_model_free(csgrt_model* model);
-/// The scene with all edits.
+/// Returns the scene with all edits.
 CSGRT_API csgrt_status csgrt_model_scene(const csgrt_model* model, csgrt_scene** scene);
 
 typedef struct csgrt_model_info {
@@ -369,7 +373,7 @@ typedef struct csgrt_region_info {
     /// Millimetres; as BRL-CAD computes it, so not always tight.
     csgrt_box bounds;
 } csgrt_region_info;
-/// Of the region that region_ids have as `index`.
+/// Fills `info` with the region that has the id `index` in region_ids.
 CSGRT_API csgrt_status csgrt_model_region(const csgrt_model* model, size_t index, csgrt_region_info* info);
 CSGRT_API csgrt_status csgrt_model_finish(const csgrt_model* model, size_t region, csgrt_finish* finish);
 
@@ -383,7 +387,7 @@ typedef struct csgrt_solid_info {
     /// From 0: which of the solids into which csgrt cuts a pipe.
     unsigned piece;
 } csgrt_solid_info;
-/// Of the solid that solid ids have as `index`.
+/// Fills `info` with the solid that has the id `index`.
 CSGRT_API csgrt_status csgrt_model_solid(const csgrt_model* model, size_t index, csgrt_solid_info* info);
 CSGRT_API csgrt_status csgrt_model_warning(const csgrt_model* model, size_t index, csgrt_diagnostic* warning);
 
@@ -417,20 +421,20 @@ typedef struct csgrt_ray_grid {
 } csgrt_ray_grid;
 /// Parallel rays along an axis, 0 to 2, through a box.
 CSGRT_API csgrt_status csgrt_rays_parallel(const csgrt_box* box, int axis, int columns, int rows, csgrt_ray_grid* grid);
-/// Rays from an eye through a picture's pixels. `vertical_fov`: degrees.
+/// Makes rays from an eye through a picture's pixels. `vertical_fov`: degrees.
 CSGRT_API csgrt_status csgrt_rays_pinhole(double vertical_fov, const csgrt_vec3* center, const csgrt_vec3* eye,
                                           const csgrt_vec3* up, int width, int height, csgrt_ray_grid* grid);
-/// The ray of number row x columns + column.
+/// The ray with the number row x columns + column.
 CSGRT_API csgrt_status csgrt_ray_grid_ray(const csgrt_ray_grid* grid, int column, int row, csgrt_ray* ray);
 
-/// Rays, and what of them is wanted.
+/// Rays, their ranges, and the arrays that the call has to fill.
 typedef struct csgrt_rays {
     size_t size;
     const csgrt_ray* list;
     size_t count;
     const csgrt_ray_grid* grid;  ///< in place of the list
     csgrt_range range;           ///< of all rays, in lengths of their directions
-    const csgrt_range* ranges;   ///< in its place, one a ray
+    const csgrt_range* ranges;   ///< in place of `range`, one a ray
     size_t range_count;
     unsigned fields;  ///< of csgrt_partitions, besides regions and distances: CSGRT_FIELD_SOLIDS | ...
 } csgrt_rays;
@@ -446,8 +450,8 @@ typedef struct csgrt_partitions csgrt_partitions;
 CSGRT_API csgrt_status csgrt_partitions_create(csgrt_partitions** partitions);
 CSGRT_API void csgrt_partitions_free(csgrt_partitions* partitions);
 
-/// csgrt::Partitions: the rows of ray i are [ray_splits[i], ray_splits[i + 1]), in order of distance. What was not
-/// asked for is NULL.
+/// csgrt::Partitions: the rows of ray i are [ray_splits[i], ray_splits[i + 1]), in order of distance. Arrays without
+/// their field are NULL.
 typedef struct csgrt_partition_arrays {
     size_t size;
     size_t ray_count, row_count, overlap_count, claimant_count;
@@ -461,10 +465,10 @@ typedef struct csgrt_partition_arrays {
     const int64_t* overlap_region_splits;        ///< (overlap_count + 1)
     const int32_t* overlap_region_ids;           ///< (claimant_count)
 } csgrt_partition_arrays;
-/// Hands out the arrays, without a copy; valid until the next call that fills the handle.
+/// Returns the arrays, without a copy; valid until the next call that fills the handle.
 CSGRT_API csgrt_status csgrt_partitions_get(const csgrt_partitions* partitions, csgrt_partition_arrays* arrays);
 
-/// Where rays first meet a region, in the caller's memory: `count` elements each, one a ray. NULL: not wanted.
+/// The first hits of rays, in the caller's memory: `count` elements in each array, one a ray. NULL: not wanted.
 typedef struct csgrt_hits {
     size_t size;
     size_t count;
@@ -492,8 +496,8 @@ typedef struct csgrt_slice {
 CSGRT_API csgrt_status csgrt_slice_of(const csgrt_box* box, const csgrt_vec3* normal, double offset, int width,
                                       int height, csgrt_slice* slice);
 
-// On the calling thread alone: for single rays and short lists. The bits are those of a renderer in double precision.
-// CSGRT_ERROR_USAGE names the index of a ray that is invalid.
+// The calls below work on the calling thread alone: for single rays and short lists. The bits are those of a renderer
+// in double precision. CSGRT_ERROR_USAGE names the index of a ray that is invalid.
 
 CSGRT_API csgrt_status csgrt_model_partitions(const csgrt_model* model, const csgrt_rays* rays,
                                               csgrt_partitions* partitions);
@@ -521,8 +525,8 @@ CSGRT_API void csgrt_renderer_free(csgrt_renderer* renderer);
 CSGRT_API csgrt_status csgrt_renderer_model(const csgrt_renderer* renderer, csgrt_model** model);
 CSGRT_API csgrt_status csgrt_renderer_set_model(csgrt_renderer* renderer, const csgrt_model* model);
 
-// As the model's, on the renderer's device. All may also fail with CSGRT_ERROR_OUT_OF_MEMORY, CSGRT_ERROR_DEVICE_FAULT
-// and CSGRT_ERROR_INTERRUPTED.
+// The calls below do the same on the renderer's device. All may also fail with CSGRT_ERROR_OUT_OF_MEMORY,
+// CSGRT_ERROR_DEVICE_FAULT and CSGRT_ERROR_INTERRUPTED.
 
 CSGRT_API csgrt_status csgrt_renderer_partitions(csgrt_renderer* renderer, const csgrt_rays* rays,
                                                  csgrt_partitions* partitions);
@@ -534,9 +538,9 @@ CSGRT_API csgrt_status csgrt_renderer_region_at(csgrt_renderer* renderer, const 
                                                 size_t count);
 CSGRT_API csgrt_status csgrt_renderer_slice(csgrt_renderer* renderer, const csgrt_slice* slice, int32_t* ids,
                                             size_t count);
-/// Gets `user`, the partitions of a batch, and the number of its first ray. 0 ends the call, without a failure.
+/// Called with `user`, the partitions of a batch, and the number of its first ray. 0 ends the call, without a failure.
 typedef int (*csgrt_take)(void* user, const csgrt_partitions* batch, uint64_t first_ray);
-/// Partitions in batches of at most `most` rays, for any number of rays.
+/// Computes partitions in batches of at most `most` rays, for any number of rays.
 CSGRT_API csgrt_status csgrt_renderer_partitions_in_batches(csgrt_renderer* renderer, const csgrt_rays* rays,
                                                             uint64_t most, csgrt_take take, void* user);
 
@@ -668,7 +672,7 @@ CSGRT_API csgrt_status csgrt_image_channel_name(const csgrt_image* image, size_t
 /// The values of a channel, without a copy: width x height, row by row from the top left.
 CSGRT_API csgrt_status csgrt_image_channel(const csgrt_image* image, const char* name, const float** values,
                                            size_t* count);
-/// The same of a channel of ids: index + 1; 0: nothing.
+/// The ids of a channel of ids, without a copy: index + 1; 0: nothing.
 CSGRT_API csgrt_status csgrt_image_ids(const csgrt_image* image, const char* name, const uint32_t** ids, size_t* count);
 /// Copies channels of floats: of each pixel the values of all `names`; count = width x height x name_count.
 CSGRT_API csgrt_status csgrt_image_copy(const csgrt_image* image, const char* const* names, size_t name_count,
@@ -692,7 +696,7 @@ CSGRT_API csgrt_status csgrt_model_grid_of(const csgrt_model* model, const csgrt
 
 // ---- Edits ----
 
-/// csgrt::Edit: changes to a model, which make the next model at once. Where a path leads nowhere the call fails, or
+/// csgrt::Edit: changes to a model, which make the next model at once. If a path leads nowhere the call fails, or
 /// csgrt_edit_commit() does.
 typedef struct csgrt_edit csgrt_edit;
 CSGRT_API csgrt_status csgrt_edit_create(const csgrt_model* model, csgrt_edit** edit);
@@ -703,7 +707,8 @@ CSGRT_API csgrt_status csgrt_edit_set_state(csgrt_edit* edit, const char* path, 
 CSGRT_API csgrt_status csgrt_edit_set_lights(csgrt_edit* edit, const csgrt_light* lights, size_t count);
 CSGRT_API csgrt_status csgrt_edit_set_ambient(csgrt_edit* edit, double intensity);
 CSGRT_API csgrt_status csgrt_edit_set_background(csgrt_edit* edit, const csgrt_vec3* color);
-/// The matrix of a path's last leg. `share_all`: 1 for all that share the leg, 0 for this instance alone.
+/// Sets the matrix of a path's last member. `share_all`: 1 for all instances that share the member, 0 for this instance
+/// alone.
 CSGRT_API csgrt_status csgrt_edit_set_matrix(csgrt_edit* edit, const char* path, const double matrix[16],
                                              int share_all);
 /// Gives the solid `solid` the shape of a solid of a scene.
@@ -711,11 +716,11 @@ CSGRT_API csgrt_status csgrt_edit_replace(csgrt_edit* edit, const char* solid, c
                                           const char* name);
 /// Adds an object of a scene; `top`: 1: as one of the top objects.
 CSGRT_API csgrt_status csgrt_edit_add(csgrt_edit* edit, const csgrt_scene* scene, const char* name, int top);
-/// Adds a leg to a combination: its tree becomes tree `op` leg. `matrix`: 16 numbers, or NULL.
+/// Adds a member to a combination: its tree becomes tree `op` member. `matrix`: 16 numbers, or NULL.
 CSGRT_API csgrt_status csgrt_edit_add_leg(csgrt_edit* edit, const char* combination, csgrt_operator op,
                                           const char* object, const double* matrix);
 CSGRT_API csgrt_status csgrt_edit_remove(csgrt_edit* edit, const char* path);
-/// The next model; the edits stay.
+/// Makes the next model; the edits stay.
 CSGRT_API csgrt_status csgrt_edit_commit(const csgrt_edit* edit, csgrt_model** model);
 
 // ---- Verification ----
@@ -730,21 +735,21 @@ CSGRT_API csgrt_status csgrt_verifier_sample(const csgrt_verifier* verifier, con
                                              csgrt_ray* rays, size_t count);
 CSGRT_API csgrt_status csgrt_verifier_shoot(csgrt_verifier* verifier, const csgrt_ray* rays, size_t count);
 
-/// A part of csgrt::Verification, about all rays so far.
+/// A part of csgrt::Verification, for all rays so far.
 typedef struct csgrt_verification {
     size_t size;
     const char* device;  ///< "": the reference alone is verified
     uint64_t rays, hits, decided, ties, wrong, bit_differences, ends, leaping_ends;
-    double largest_error, largest_ulps;  ///< of an end: millimetres along the ray, and units of the last place
+    double largest_error, largest_ulps;  ///< of a boundary: millimetres along the ray, and units of the last place
     uint64_t first_wrong;                ///< the number of the first wrong ray, if there is one
-    csgrt_ray wrong_ray;                 ///< and that ray
+    csgrt_ray wrong_ray;                 ///< the first wrong ray
 } csgrt_verification;
 /// Fills the result, and returns CSGRT_OK if no ray is wrong and no bit differs, else CSGRT_ERROR_DIFFERS.
 CSGRT_API csgrt_status csgrt_verifier_result(const csgrt_verifier* verifier, csgrt_verification* result);
 
 // ---- Defaults ----
 
-// For C and C++ as macros, for all others as functions: each puts the defaults into the struct.
+// The defaults are macros for C and C++, and functions for other languages: each puts the defaults into the struct.
 CSGRT_API void csgrt_diagnostic_init(csgrt_diagnostic* diagnostic);
 CSGRT_API void csgrt_settings_init(csgrt_settings* settings);
 CSGRT_API void csgrt_device_info_init(csgrt_device_info* device_info);

@@ -13,7 +13,7 @@
 //             std::printf("%s %g %g\n", model.regions()[p.region].path.c_str(), p.in, p.out);
 //     }
 //
-// What holds everywhere unless a comment says otherwise:
+// Rules that hold unless a comment says otherwise:
 // - Lengths and coordinates are millimetres, angles degrees, coordinates right-handed with z up. Distances along a ray
 //   are in units of the length of its direction.
 // - Functions that fail throw csgrt::Error, or std::bad_alloc.

@@ -1,4 +1,4 @@
-// The devices that csgrt can compute on.
+// Devices that csgrt can compute on.
 #pragma once
 
 #include <cstdint>
@@ -20,10 +20,10 @@ struct DeviceInfo {
     bool fp64 = false;  ///< Whether it computes in double precision.
 };
 
-/// Every device, in the order of the numbers that Settings::device takes: the devices of OpenCL, and the native devices
-/// (platform "csgrt"), which are this machine's processors with kernels that csgrt brings itself. In a process that was
-/// forked after its parent had used a driver, the native devices only. Empty if there is none. If `notes` is not null,
-/// a sentence on each driver that cannot be used is appended to it. Any thread.
+/// Returns every device, in the order of the numbers in Settings::device: the devices of OpenCL, and the native devices
+/// (platform "csgrt"), which are this machine's processors with kernels that csgrt brings itself. Empty if there is
+/// none. In a process that was forked after its parent had used a driver, only native devices are returned. If `notes`
+/// is not null, a sentence on each driver that cannot be used is appended to it. Any thread.
 ///
 /// PoCL, an OpenCL driver for processors, fails or ends the process if it cannot write its cache: POCL_CACHE_DIR, else
 /// XDG_CACHE_HOME/pocl/kcache, else HOME/.cache/pocl/kcache. The library does not change the environment. A program

@@ -36,10 +36,10 @@ struct Place {
     std::string pointer = {};  ///< a JSON pointer, or the name of an object; may be empty
 };
 
-/// One error: what is wrong, where, and what to do.
+/// An error: the fault, its place, and what to do.
 struct Diagnostic {
     Place place = {};
-    std::string message = {};     ///< what is wrong, and what was expected
+    std::string message = {};     ///< the fault, and what was expected
     std::string suggestion = {};  ///< what to do; may be empty
     std::string excerpt = {};     ///< the line of the file, with a caret under the place; may be empty
 };
@@ -48,11 +48,11 @@ struct Diagnostic {
 /// parts that are unknown or empty. Any thread.
 CSGRT_API std::string format(const Diagnostic& diagnostic);
 
-/// A fault that was tolerated: csgrt left something out or replaced it, and uses the rest of the model as it is.
+/// A fault that was tolerated: csgrt left a part out or replaced it, and uses the rest of the model unchanged.
 struct Warning {
     std::string object = {};  ///< the object's name; empty: the warning is about the whole file, or about a device
     Place place = {};         ///< of the first occurrence; may be unknown
-    std::string reason = {};  ///< what is wrong, and what csgrt did about it
+    std::string reason = {};  ///< the fault, and what csgrt did about it
     std::uint64_t count = 1;  ///< the number of occurrences
     bool appearance = false;  ///< true: the fault changes colours only, not what rays hit
 };
@@ -60,7 +60,7 @@ struct Warning {
 /// "place: object: reason (N times)", on one line. Any thread.
 CSGRT_API std::string format(const Warning& warning);
 
-/// What every function of csgrt throws when it fails. `what()` holds all diagnostics as text, each of a line or more.
+/// The exception of every function of csgrt that fails. `what()` holds all diagnostics as text, each of a line or more.
 class CSGRT_API Error : public std::runtime_error {
 public:
     /// An error with one diagnostic, which has this message and no place.

@@ -1,4 +1,4 @@
-// A picture's memory, to be drawn into again and again.
+// Framebuffer: the memory of a picture that is drawn again and again.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@ class RegisteredMemory;
 /// copy of a Framebuffer is deep, and not registered. One thread at a time.
 class CSGRT_API Framebuffer {
 public:
-    /// No picture.
+    /// An empty framebuffer.
     Framebuffer();
     ~Framebuffer();
     Framebuffer(Framebuffer&& other) noexcept;
@@ -27,8 +27,8 @@ public:
     Framebuffer(const Framebuffer& other);
     Framebuffer& operator=(const Framebuffer& other);
 
-    /// The frame that was drawn last. If the last call threw, the picture may hold parts of two frames. The reference
-    /// is valid as long as this object; the next frame replaces the values.
+    /// The last frame. If the last call threw, the picture may hold parts of two frames. The reference is valid as long
+    /// as this object; the next frame replaces the values.
     const Image& image() const { return image_; }
     /// Moves the picture out. The Framebuffer is empty afterwards, and the next frame allocates memory.
     Image take();

@@ -20,15 +20,15 @@ namespace csgrt {
 
 class Watch;
 
-/// The values of several channels, the same number of floats or whole numbers of 32 bits for each. All are in one piece
-/// of memory, one channel after the other, so that a GPU can copy a part of all channels at once. Copies are deep.
-/// Several threads may read at the same time, and may write to different values.
+/// The values of several channels, the same number of floats or whole numbers of 32 bits for each. All stand in one
+/// block of memory, one channel after the other, so that a GPU can copy a part of all channels at once. Copies are
+/// deep. Several threads may read at the same time, and may write to different values.
 class CSGRT_API Channels {
 public:
-    /// No channels.
+    /// An object without channels.
     Channels() = default;
-    /// As many channels as `values` has elements, each of `size` floats. All floats of channel i are values[i]. Several
-    /// threads write large channels. Throws std::bad_alloc.
+    /// Makes as many channels as `values` has elements, each of `size` floats. All floats of channel i are values[i].
+    /// Several threads write large channels. Throws std::bad_alloc.
     Channels(std::size_t size, std::span<const float> values);
     /// A copy of these channels. Throws Error (usage) if two channels have different numbers of values.
     Channels(const std::vector<std::vector<float>>& channels);  // NOLINT: it is the same in another form
@@ -40,13 +40,13 @@ public:
     /// The number of channels.
     std::size_t size() const noexcept { return count_; }
     bool empty() const noexcept { return count_ == 0; }
-    /// The values of one channel, which is below size(). The span is valid until the object is assigned to, moved from
-    /// or destroyed.
+    /// The values of one channel; `channel` is less than size(). The span is valid until the object is assigned to,
+    /// moved from or destroyed.
     std::span<float> operator[](std::size_t channel) noexcept { return {values_.get() + channel * size_, size_}; }
     std::span<const float> operator[](std::size_t channel) const noexcept {
         return {values_.get() + channel * size_, size_};
     }
-    /// The same memory as whole numbers.
+    /// The values of one channel as whole numbers.
     std::span<std::uint32_t> ids(std::size_t channel) noexcept {
         return {reinterpret_cast<std::uint32_t*>(values_.get() + channel * size_), size_};
     }
@@ -54,7 +54,7 @@ public:
         return {reinterpret_cast<const std::uint32_t*>(values_.get() + channel * size_), size_};
     }
 
-    /// The same shape, and floats that compare equal: no NaN equals another.
+    /// True if the sizes are the same and all floats compare equal: no NaN equals another.
     CSGRT_API friend bool operator==(const Channels& a, const Channels& b) noexcept;
 
 private:
@@ -70,8 +70,8 @@ private:
     std::unique_ptr<float[], Free> values_;
 };
 
-/// A picture. Each channel has width x height values, row by row; the first is the TOP left pixel. They are floats, but
-/// for ids. A Renderer makes these channels, in this order, as far as View::channels wants them:
+/// A picture. Each channel has width x height values, row by row; the first is the TOP left pixel. They are floats,
+/// except for ids. A Renderer makes these channels, in this order, if View::channels has their group:
 ///
 ///     R G B           linear light, 0 to 1, more in highlights; the background where the ray hits nothing
 ///     A               1; with View::transparent 0 where the ray hits nothing, as R, G and B there
@@ -80,10 +80,10 @@ private:
 ///     N.X N.Y N.Z     unit normal of the surface, outward from the region, in the model's coordinates
 ///     region solid    ids: index into Model::regions() or Model::solids(), plus 1; 0 where the ray hits nothing
 ///     depth           number of segments along the ray: its intervals inside single solids
-///     partitions      number of intervals between neighbouring ends of segments that are inside any solid
-///     overlap         number of those that several regions claim (see Overlap)
-///     RGBA8           ids: the colour for a display (display_pixels()), a byte each from the lowest one on
-///     ghost           ids: as region, of the first ghost (State) that the ray passes before what is seen
+///     partitions      number of intervals between neighbouring boundaries that are inside any solid
+///     overlap         number of these intervals that several regions claim (see Overlap)
+///     RGBA8           ids: the colour for a display (display_pixels()), a byte each from the lowest byte on
+///     ghost           ids: as region, of the first ghost (State) before the visible surface
 ///
 /// Several threads may read one Image at the same time.
 struct Image {
@@ -96,32 +96,31 @@ struct Image {
     std::map<std::string, std::string> attributes = {};       ///< text for the file's header, by name
     std::map<std::string, std::vector<float>> matrices = {};  ///< 4 x 4, row-major, p' = M p, for the header, by name
 
-    /// Has the picture a channel of that name?
+    /// Whether the picture has a channel of this name.
     CSGRT_API bool has_channel(std::string_view name) const noexcept;
-    /// The values of the channel of that name. They belong to this Image: keep it while they are used. An Image that is
-    /// about to end, such as the result of a call, has no such function. Throws Error (usage), which names the channels
-    /// that the picture has, if that one is not among them, or holds ids.
+    /// The values of a channel by its name. They belong to this Image: keep it while they are used. An Image that is
+    /// about to be destroyed, such as the result of a call, has no such function. Throws Error (usage) if there is no
+    /// such channel, or it holds ids; the message names the picture's channels.
     CSGRT_API std::span<const float> channel(std::string_view name) const&;
     std::span<const float> channel(std::string_view name) const&& = delete;
-    /// The same of a channel of ids.
+    /// The ids of a channel by its name, under the same rules.
     CSGRT_API std::span<const std::uint32_t> ids(std::string_view name) const&;
     std::span<const std::uint32_t> ids(std::string_view name) const&& = delete;
     bool holds_ids(std::size_t channel) const noexcept { return channel < are_ids.size() && are_ids[channel]; }
 };
 
 /// The colours of a picture for a display: R G B A of each pixel, one byte each, row by row from the top left. They are
-/// encoded as sRGB, cut off at 0 and 1, and rounded; A is 255 if the picture has no such channel. Alpha is not
-/// associated: R, G and B are what they were before A weighed them, as PNG has it. Throws Error (usage) if a channel of
-/// R, G and B is missing. Any thread.
+/// encoded as sRGB, cut off at 0 and 1, and rounded; A is 255 if the picture has no such channel. Alpha is
+/// unassociated, as in PNG: R, G and B are not multiplied by A. Throws Error (usage) if a channel of R, G and B is
+/// missing. Any thread.
 CSGRT_API std::vector<unsigned char> display_pixels(const Image& image);
 
 /// Writes a picture file by the extension of `path`: .exr (every channel, as 32-bit floats, ids as 32-bit unsigned
 /// integers; R G B in linear light) or .png (display_pixels(), without A if all pixels are opaque; its header says
 /// sRGB). The file has a temporary name until it is complete. "-" writes to standard output, in `format` ("exr" or
-/// "png"); so do the names of pipes and devices. Throws Error: usage if the picture has not the channels that the
-/// format needs or the format is unknown, file if the file cannot be written. `progress` is called with the written
-/// part, 0 to 1; if it returns false, nothing is written, and Error (interrupted) is thrown. Any thread. In
-/// csgrt::image.
+/// "png"); so do the names of pipes and devices. Throws Error: usage if the picture lacks channels that the format
+/// needs or the format is unknown, file if the file cannot be written. `progress` is called with the written part, 0 to
+/// 1; if it returns false, nothing is written, and Error (interrupted) is thrown. Any thread. In csgrt::image.
 CSGRT_API void write_image(const Image& image, const std::string& path, const std::string& format = "exr",
                            const std::function<bool(double)>& progress = {});
 

@@ -1,11 +1,11 @@
-// librt's shape: programs that shoot rays by BRL-CAD's names (rt_dirbuild, rt_gettrees, rt_prep_parallel, rt_shootray)
-// compile with this header in place of raytrace.h, and csgrt answers. The definitions are csgrt's own, as far as gqa,
-// rtcheck, rtweight, rtxray, rtshot, rtexample and MOOSE use librt; docs/librt.md says what is where. C++ alone.
-// What csgrt does not have is not declared: the compiler names it.
+// librt's interface: programs that shoot rays by BRL-CAD's names (rt_dirbuild, rt_gettrees, rt_prep_parallel,
+// rt_shootray) compile with this header in place of raytrace.h, and csgrt answers. The definitions are csgrt's own, as
+// far as gqa, rtcheck, rtweight, rtxray, rtshot, rtexample and MOOSE use librt; docs/librt.md lists them. C++ alone.
+// Names that csgrt does not have are not declared: the compiler reports them.
 //
 // Distances are in lengths of r_dir. The partitions are those of Renderer::shoot(), to the last bit: neighbours of one
-// region are one partition, and what ends behind the ray's start is left out. Any number of threads may shoot, and
-// callbacks may shoot.
+// region are one partition, and partitions that end behind the ray's start are left out. Any number of threads may
+// shoot, and callbacks may shoot.
 #pragma once
 
 #ifndef __cplusplus
@@ -48,7 +48,7 @@ struct xray {
     fastf_t r_min = 0, r_max = 0;
 };
 
-/// One end of a partition. hit_point and hit_normal are there from the start: RT_HIT_NORMAL copies.
+/// One boundary of a partition. hit_point and hit_normal are filled from the start: RT_HIT_NORMAL copies.
 struct hit {
     fastf_t hit_dist = 0;
     point_t hit_point = {};
@@ -60,7 +60,7 @@ struct directory {
     const char* d_namep = "";
 };
 
-/// A solid. Where a decision about an overlap made an end and no surface lies there, it is "?".
+/// A solid. Where a decision about an overlap makes a boundary and no surface lies there, it is "?".
 struct soltab {
     const char* st_name = "?";
     const directory* st_dp = nullptr;
@@ -77,7 +77,7 @@ struct mater_info {
     int ma_color_valid = 1;
 };
 
-/// A link of a ring; what it links begins with one.
+/// A link of a ring; each linked struct begins with one.
 struct bu_list {
     bu_list *forw = nullptr, *back = nullptr;
 };
@@ -96,16 +96,16 @@ struct region {
     void* reg_udata = nullptr;  ///< the caller's
 };
 
-/// A partition; all of a ray are a ring through a head, which is none itself.
+/// A partition. All partitions of a ray are a ring through a head, which is not a partition.
 struct partition {
     partition *pt_forw = nullptr, *pt_back = nullptr;
     seg *pt_inseg = nullptr, *pt_outseg = nullptr;
     hit *pt_inhit = nullptr, *pt_outhit = nullptr;
     region* pt_regionp = nullptr;
-    char pt_inflip = 0, pt_outflip = 0;  ///< normals are outward: there is nothing to flip
+    char pt_inflip = 0, pt_outflip = 0;  ///< normals are outward, so nothing is flipped
 };
 
-/// librt's scratch memory of a thread. Here each thread has its own by itself.
+/// librt's scratch memory of a thread. csgrt does not use it: each thread has its own.
 struct resource {
     int re_cpu = 0;
 };
@@ -113,10 +113,10 @@ inline resource rt_uniresource;
 #define RESOURCE_NULL (static_cast<struct resource*>(nullptr))
 #define MAX_PSW 1024
 
-/// The regions that claim a part of a ray; a handler takes those out that do not get it.
+/// The regions that claim a part of a ray; a handler removes those that do not get it.
 struct bu_ptbl {
     region** buffer = nullptr;
-    size_t end = 0;  ///< how many they are
+    size_t end = 0;  ///< number of regions
 };
 #define BU_PTBL_LEN(table) ((table)->end)
 #define BU_PTBL_GET(table, i) ((table)->buffer[i])
@@ -127,7 +127,7 @@ struct bu_ptbl {
     ++(p)
 inline void bu_ptbl_reset(bu_ptbl* table) { table->end = 0; }
 
-/// What rt_dirbuild() read.
+/// The result of rt_dirbuild().
 struct db_i {
     const char* dbi_title = "";
     double dbi_local2base = 1, dbi_base2local = 1;  ///< millimetres in one of the file's units, and the inverse
@@ -138,23 +138,23 @@ struct rt_i {
     point_t mdl_min = {}, mdl_max = {};  ///< the model's box, millimetres
     int useair = 0;                      ///< other than 0: regions of air are part of the model; before rt_prep
     std::atomic<int> needprep = 1;
-    size_t nregions = 0, nsolids = 0;                 ///< before rt_prep nsolids tells how many objects were added
+    size_t nregions = 0, nsolids = 0;                 ///< before rt_prep nsolids is the number of added objects
     region** Regions = nullptr;                       ///< (nregions)
     bu_list HeadRegion = {&HeadRegion, &HeadRegion};  ///< the same regions
     db_i* rti_dbip = &database;
 
-    // csgrt's own.
+    // Members of csgrt's own.
     csgrt::Scene scene;
     db_i database;
     bool asked = false;  ///< rt_gettree() was called
     std::vector<std::string> objects;
     std::optional<csgrt::Model> model;                ///< none: there is nothing to hit
-    std::optional<csgrt::Renderer> renderer;          ///< of shoot_many()
-    std::vector<std::optional<csgrt::Model>> layers;  ///< the model with some regions alone; see layers_of()
+    std::optional<csgrt::Renderer> renderer;          ///< for shoot_many()
+    std::vector<std::optional<csgrt::Model>> layers;  ///< models with some of the regions; see layers_of()
     static constexpr size_t none = static_cast<size_t>(-1);
-    std::vector<size_t> layer;                  ///< of each region; none: not needed yet
+    std::vector<size_t> layer;                  ///< one a region; empty: not needed yet
     std::set<std::pair<size_t, size_t>> apart;  ///< regions that overlap on a ray: they have different layers
-    std::mutex mutex;                           ///< of preparing, of `renderer` and of the layers
+    std::mutex mutex;                           ///< guards the preparation, `renderer` and the layers
     std::vector<region> regions;
     std::vector<region*> region_pointers;
     std::vector<soltab> solids;
@@ -163,19 +163,20 @@ struct rt_i {
 };
 #define RTI_NULL (static_cast<struct rt_i*>(nullptr))
 
-/// What to shoot, and who is told.
+/// A ray to shoot, and the functions to call.
 struct application {
     xray a_ray = {};
-    int (*a_hit)(application*, partition* head, seg*) = nullptr;  ///< where there are partitions; the list is empty
-    int (*a_miss)(application*) = nullptr;                        ///< where there is none
-    /// For two regions that claim a part of the ray: 0: neither gets it, 1: the first, 2: the second. Of three and more
-    /// the one that is left is asked about with the next. Null: the first gets it.
+    int (*a_hit)(application*, partition* head, seg*) = nullptr;  ///< if there are partitions; the list is empty
+    int (*a_miss)(application*) = nullptr;                        ///< if there is none
+    /// For two regions that claim a part of the ray. 0: neither gets it, 1: the first, 2: the second. Of three and
+    /// more, the function is called with the last winner and the next region. Null: the first gets it.
     int (*a_overlap)(application*, partition*, region*, region*, partition* head) = nullptr;
-    /// In place of a_overlap: takes regions out of the table, or sets them null. The first that is left gets the part.
+    /// In place of a_overlap: removes regions from the table, or sets them null. The first region left gets the part.
     void (*a_multioverlap)(application*, partition*, bu_ptbl* regions, partition* head) = nullptr;
-    /// Told of each overlap before the others are asked. Null: nobody is told.
+    /// Called with each overlap before the other functions. Null: not called.
     void (*a_logoverlap)(application*, const partition*, const bu_ptbl* regions, const partition* head) = nullptr;
-    /// 0: all partitions. n: those of the first n ends; -n: of the first n ends of regions that are no air.
+    /// 0: all partitions. n: the partitions of the first n boundaries; -n: of the first n boundaries of regions other
+    /// than air.
     int a_onehit = 0;
     rt_i* a_rt_i = nullptr;
     resource* a_resource = nullptr;
@@ -206,7 +207,7 @@ inline void rt_silent_logoverlap(application*, const partition*, const bu_ptbl*,
 #define PT_NULL (static_cast<struct partition*>(nullptr))
 #define REGION_NULL (static_cast<struct region*>(nullptr))
 
-// Of libbu, what the callbacks use.
+// Names of libbu that the callbacks use.
 #ifndef UNUSED
 #define UNUSED(parameter) UNUSED_##parameter [[maybe_unused]]
 #endif
@@ -228,7 +229,7 @@ inline void rt_silent_logoverlap(application*, const partition*, const bu_ptbl*,
     std::exit(status);
 }
 [[noreturn]] inline void bu_bomb(const char* text) { bu_exit(12, "\n%s\n", text); }
-/// Zeros; bu_free() frees them. Throws std::bad_alloc.
+/// Allocates zeros; bu_free() frees them. Throws std::bad_alloc.
 inline void* bu_calloc(size_t count, size_t size, const char*) {
     void* const memory = std::calloc(count, size);
     if (!memory) throw std::bad_alloc();
@@ -239,7 +240,7 @@ inline void bu_free(void* memory, const char*) { std::free(memory); }
 #define BU_ALLOC(pointer, type) ((pointer) = static_cast<type*>(bu_calloc(1, sizeof(type), #type)))
 
 #define BU_SEM_SYSCALL 0
-/// `semaphore`: 0 to 31; std::out_of_range beyond.
+/// The mutex of a semaphore, 0 to 31; throws std::out_of_range beyond.
 inline std::mutex& csgrt_semaphore(int semaphore) {
     static std::array<std::mutex, 32> all;
     return all.at(static_cast<size_t>(semaphore));
@@ -247,7 +248,7 @@ inline std::mutex& csgrt_semaphore(int semaphore) {
 inline void bu_semaphore_acquire(int semaphore) { csgrt_semaphore(semaphore).lock(); }
 inline void bu_semaphore_release(int semaphore) { csgrt_semaphore(semaphore).unlock(); }
 
-// Of vmath.h, what programs that shoot rays use; its own definitions count where it is included before.
+// Names of vmath.h that programs that shoot rays use; its own definitions count if it is included before.
 #ifndef VSET
 #define VSET(a, x, y, z) ((a)[0] = (x), (a)[1] = (y), (a)[2] = (z))
 #define VSETALL(a, s) VSET(a, s, s, s)
@@ -291,16 +292,16 @@ void unitize(Vector& v) {
 }
 inline Ray ray_of(const xray& x) { return {{x.r_pt[0], x.r_pt[1], x.r_pt[2]}, {x.r_dir[0], x.r_dir[1], x.r_dir[2]}}; }
 
-/// Is the application asked or told about overlaps?
+/// Has the application a function for overlaps?
 inline bool wants_overlaps(const application& ap) {
     return ap.a_overlap || ap.a_multioverlap || (ap.a_logoverlap && ap.a_logoverlap != rt_silent_logoverlap);
 }
-/// Overlaps only for those who are.
+/// The fields of the answer: overlaps only if the application has a function for them.
 inline Fields fields(bool overlaps) { return {.solids = true, .normals = true, .overlaps = overlaps}; }
 inline constexpr RayRanges whole_line{.all = {-std::numeric_limits<double>::infinity()}};
 
-/// Models that have the regions of the ray's overlaps between them, none with two that overlap on a ray. Their surfaces
-/// are the prepared model's, to the last bit.
+/// Models that together have the regions of the ray's overlaps; none has two that overlap on a ray. Their surfaces are
+/// the prepared model's, to the last bit.
 inline std::vector<Model> layers_of(rt_i& rtip, const Partitions& all, std::size_t ray) {
     const std::lock_guard lock(rtip.mutex);
     std::vector<std::size_t>& layer = rtip.layer;
@@ -352,19 +353,19 @@ inline std::vector<Model> layers_of(rt_i& rtip, const Partitions& all, std::size
     return models;
 }
 
-/// A part of a ray before it is one of librt's partitions.
+/// A part of a ray before it becomes one of librt's partitions.
 struct Piece {
     double t[2];  ///< in, out
     std::int32_t region, solids[2];
     Vec3 normals[2];
 };
 
-/// The memory of one ray's answer. A callback that shoots needs another one.
+/// The memory of one ray's answer. A callback that shoots needs memory of its own.
 struct Answer {
     Partitions rows;
     std::vector<Piece> pieces, others;
-    std::vector<seg> segs;        // two a partition: of its in and of its out
-    std::vector<partition> ring;  // the head, then one a piece
+    std::vector<seg> segs;        // two a partition: for its in and its out
+    std::vector<partition> ring;  // the head, then one a part
     partition overlap;
     seg overlap_segs[2];
     std::vector<region*> claimants;  // of the overlap
@@ -373,7 +374,7 @@ struct Answer {
         std::int32_t solid = -1;
         Vec3 normal = {};  ///< against the ray
     };
-    std::vector<Surface> surfaces;  // of the ray's overlapping regions, each as if alone; empty: not looked for yet
+    std::vector<Surface> surfaces;  // of the ray's overlapping regions, each as if alone; empty: not computed yet
     Partitions own;
 
     void start(const Partitions& all, std::int64_t first, std::int64_t last) {
@@ -415,7 +416,7 @@ struct Answer {
         return ring.front();
     }
 
-    /// Finds the surfaces of all regions that overlap another one along the ray.
+    /// Finds the surfaces of all regions that overlap another region along the ray.
     void find_surfaces(const application& ap, const Partitions& all, std::size_t ray) {
         for (const Model& model : layers_of(*ap.a_rt_i, all, ray)) {
             model.partitions(ray_of(ap.a_ray), own, {.solids = true, .normals = true, .hidden = false}, whole_line);
@@ -426,7 +427,7 @@ struct Answer {
             }
         }
     }
-    /// The nearest of them within the model's tolerance.
+    /// The nearest of these surfaces within the model's tolerance.
     Surface surface_at(const application& ap, double t) const {
         double nearest = ap.a_rt_i->model->tolerance() / MAGNITUDE(ap.a_ray.r_dir);
         Surface found;
@@ -439,7 +440,7 @@ struct Answer {
         return found;
     }
 
-    /// The interval [in, out], which is region `first`'s, becomes region `next`'s; -1: nobody's.
+    /// Gives the interval [in, out] of region `first` to region `next`; -1: to none.
     void give(const application& ap, double in, double out, std::int32_t first, std::int32_t next) {
         others.clear();
         for (const Piece& piece : pieces) {
@@ -481,7 +482,7 @@ struct Answer {
     /// The region that gets an overlap of `claimants`, two or more; null: none.
     region* decide(application& ap, double in, double out) {
         rt_i& rtip = *ap.a_rt_i;
-        const auto of = [&](const region* owner) {  // the overlap's partition, in which it is the owner's
+        const auto of = [&](const region* owner) {  // the overlap's partition, for an owner
             fill(overlap, overlap_segs, rtip, ap.a_ray,
                  {{in, out}, static_cast<std::int32_t>(owner->reg_bit), {-1, -1}, {}});
             return &overlap;
@@ -522,7 +523,7 @@ struct Answer {
         std::erase_if(pieces, [](const Piece& piece) { return piece.t[1] < 0; });
     }
 
-    /// Calls the application about ray `ray` of `all`, which has overlaps or not.
+    /// Calls the application's functions for ray `ray` of `all`, with or without overlaps.
     int tell(application& ap, const Partitions& all, bool has_overlaps, std::size_t ray) {
         rt_i& rtip = *ap.a_rt_i;
         pieces.clear();
@@ -544,7 +545,7 @@ struct Answer {
     }
 };
 
-/// The calling thread's next free Answer, as long as this lives.
+/// The calling thread's next free Answer, reserved while this lives.
 class Borrowed {
 public:
     Borrowed() {
@@ -617,7 +618,7 @@ inline void prepare(rt_i& rtip, int threads) {
         rtip.region_pointers.push_back(&one);
     }
     rtip.Regions = rtip.region_pointers.data();
-    rtip.needprep = 0;  // last: then other threads shoot
+    rtip.needprep = 0;  // set last: then other threads shoot
 }
 
 inline rt_i& prepared(rt_i* rtip) {
@@ -629,8 +630,8 @@ inline rt_i& prepared(rt_i* rtip) {
     return *rtip;
 }
 
-/// Calls each(partition) for the ray's partitions in order, until it returns false. True: it was called for all. Of
-/// overlaps the first region has the part. Any thread. Throws Error: usage.
+/// Calls each(partition) for the ray's partitions in order, until it returns false. True: it was called for all. The
+/// first region of an overlap has the part. Any thread. Throws Error: usage.
 template <class Each>
 bool shoot(rt_i* rtip, const xray& ray, const Each& each) {
     if (!prepared(rtip).model) return true;
@@ -643,9 +644,9 @@ bool shoot(rt_i* rtip, const xray& ray, const Each& each) {
     return true;
 }
 
-/// As rt_shootray() of each ray, in order; all of the processor or the GPU trace. The application is told with the ray
-/// in a_ray and its number in a_x. Returns how many rays a_hit was called for. Throws Error: usage, out_of_memory,
-/// device_fault.
+/// Does for each ray, in order, what rt_shootray() does; all of the processor or the GPU trace. The application's
+/// functions are called with the ray in a_ray and its number in a_x. Returns for how many rays a_hit was called. Throws
+/// Error: usage, out_of_memory, device_fault.
 inline std::size_t shoot_many(application* ap, const xray* rays, std::size_t count) {
     rt_i& rtip = prepared(ap->a_rt_i);
     constexpr std::size_t most = 1 << 17;
@@ -694,7 +695,7 @@ inline rt_i* rt_dirbuild(const char* file, char* title, int length) {
     }
 }
 
-/// Adds an object, or a path to it, to what rt_prep_parallel() prepares. Below 0: there is none of that name.
+/// Adds an object, or a path to it, to those that rt_prep_parallel() prepares. Below 0: there is none of this name.
 inline int rt_gettree(rt_i* rtip, const char* name) {
     rtip->asked = true;
     if (!csgrt::object_at(rtip->scene, name))
@@ -705,7 +706,7 @@ inline int rt_gettree(rt_i* rtip, const char* name) {
     return 0;
 }
 
-/// Several objects: all, or none and below 0.
+/// Adds several objects: all, or none, and then returns a number below 0.
 inline int rt_gettrees(rt_i* rtip, int count, const char** names, int) {
     const std::size_t before = rtip->objects.size();
     for (int i = 0; i < count; ++i)
@@ -717,16 +718,16 @@ inline int rt_gettrees(rt_i* rtip, int count, const char** names, int) {
     return 0;
 }
 
-/// Compiles what was added: nothing if rt_gettree() found nothing, and the scene's top objects if it was never called.
-/// `threads`: 0: one for each processor. Throws csgrt::Error (scene) where librt ends the process.
+/// Compiles the added objects: nothing if rt_gettree() found nothing, and the scene's top objects if it was never
+/// called. `threads`: 0: one for each processor. Throws csgrt::Error (scene) where librt ends the process.
 inline void rt_prep_parallel(rt_i* rtip, int threads) {
     const std::lock_guard lock(rtip->mutex);
     csgrt::librt::prepare(*rtip, threads);
 }
 inline void rt_prep(rt_i* rtip) { rt_prep_parallel(rtip, 1); }
-/// Shoots ap->a_ray through ap->a_rt_i: calls a_overlap about each overlap, then a_hit or a_miss, and returns its
-/// result. It prepares what is not prepared. Any thread. Throws csgrt::Error: usage for a ray that is none, and what
-/// rt_prep_parallel() throws.
+/// Shoots ap->a_ray through ap->a_rt_i: calls a_overlap for each overlap, then a_hit or a_miss, and returns its result.
+/// Prepares the model if it is not prepared. Any thread. Throws csgrt::Error: usage for an invalid ray, and the errors
+/// of rt_prep_parallel().
 inline int rt_shootray(application* ap) {
     rt_i& rtip = csgrt::librt::prepared(ap->a_rt_i);
     const csgrt::librt::Borrowed answer;
@@ -740,7 +741,7 @@ inline int rt_shootray(application* ap) {
 inline void rt_init_resource(resource* of, int cpu, rt_i*) { of->re_cpu = cpu; }
 inline void rt_clean_resource(rt_i*, resource*) {}
 inline void rt_clean_resource_complete(rt_i*, resource*) {}
-/// Nothing is prepared any more: what is to be hit is added anew.
+/// Removes all objects and the prepared model; the next objects are added anew.
 inline void rt_clean(rt_i* rtip) {
     rtip->objects.clear();
     rtip->asked = true;

@@ -1,4 +1,4 @@
-// The numerical methods that a scene can be rendered with. The default of each is the one to use.
+// Methods: the numerical methods that a scene can be rendered with. The default of each is recommended.
 #pragma once
 
 #include <cstddef>
@@ -14,20 +14,22 @@ enum class Precision {
     quad,     ///< 113 bits, on the reference only: shows the rounding errors of the others
 };
 
-/// Which ends of segments along one ray count as the same point.
+/// The rule by which boundaries of segments along one ray count as the same point.
 enum class Tolerance {
-    length,    ///< ends closer than Settings::tolerance in millimetres; by default the scene's tolerance
-    surfaces,  ///< ends on one surface, as found when the scene is compiled, and ends that only rounding separates
-    relative,  ///< ends closer than relative_tolerance() times the diameter of a sphere around the bounded solids
-    none,      ///< ends at equal distances only
+    length,    ///< boundaries closer than Settings::tolerance in millimetres; by default the scene's tolerance
+    surfaces,  ///< boundaries on one surface, as found when the scene is compiled, and boundaries that only rounding
+               ///< separates
+    relative,  ///< boundaries closer than relative_tolerance() times the diameter of a sphere around the bounded solids
+    none,      ///< boundaries at equal distances only
 };
-/// For Tolerance::relative: a share of the diameter of a sphere around the scene's bounded solids, without a unit.
+/// The tolerance of Tolerance::relative: a share of the diameter of a sphere around the scene's bounded solids, without
+/// a unit.
 constexpr double relative_tolerance(Precision precision) { return precision == Precision::single ? 1e-6 : 1e-9; }
-/// What rounding may separate where one surface is computed in two ways (a ball and the end of a part), as a share of
-/// the same diameter.
+/// The distance that rounding may make if one surface is computed in two ways (a ball and the end of a part), as a
+/// share of the same diameter.
 constexpr double rounding_tolerance(Precision precision) { return precision == Precision::single ? 1e-6 : 1e-12; }
 
-/// The names in the command line and in figures.
+/// Names in the command line and in reports.
 inline constexpr std::pair<std::string_view, Precision> precision_names[] = {
     {"double", Precision::double_},
     {"single", Precision::single},

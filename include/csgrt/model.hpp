@@ -1,4 +1,4 @@
-// A scene, compiled: what Renderers draw, and what single rays meet.
+// Model: a compiled scene, which Renderers draw and single rays meet.
 #pragma once
 
 #include <cstdint>
@@ -17,8 +17,8 @@ namespace csgrt {
 
 /// One region of the compiled model.
 struct RegionInfo {
-    /// "/top/.../region": the legs on the way down, by TreeNode::name. No other region has it, and edits of other
-    /// regions do not change it: the key by which a region is found again in a later Model.
+    /// "/top/.../region": the members on the way down, by TreeNode::name. No other region has the same path, and edits
+    /// of other regions do not change it: it is the key of the region in a later Model.
     std::string path = {};
     Fastgen fastgen = Fastgen::none;  ///< FASTGEN's kind of the region.
     int region_id = 0;                ///< BRL-CAD's number of the region, which is not its index.
@@ -43,8 +43,8 @@ struct SolidInfo {
 class CSGRT_API Model {
 public:
     /// Validates and compiles `scene`, and keeps it for edits (see Edit). `objects` are names, or paths such as
-    /// "all.g/tor.r", which give an object the place and the attributes that it has there; none: the scene's top
-    /// objects. Of the settings those of the scene count (air, skip_unsupported, display_shading, max_instances), the
+    /// "all.g/tor.r", which give an object the transform and the attributes that it has there; none: the scene's top
+    /// objects. Of the settings, the scene's own count (air, skip_unsupported, display_shading, max_instances), the
     /// tolerance and `threads`. Throws Error: scene, usage.
     explicit Model(Scene scene, const std::vector<std::string>& objects = {}, const Settings& settings = {});
 
@@ -52,33 +52,33 @@ public:
 
     /// The box around all regions' boxes, millimetres; low > high if no region is bounded.
     const Box& bounds() const;
-    /// By the index that Partitions::region_ids has.
+    /// The regions; their index is that of Partitions::region_ids.
     const std::vector<RegionInfo>& regions() const;
-    /// By the index that Partitions::in_solids has.
+    /// The solids; their index is that of Partitions::in_solids.
     const std::vector<SolidInfo>& solids() const;
-    /// What the scene's reader tolerated, what was left out and other notes, each once per object and reason. Pictures
-    /// have the first of them in their attribute csgrt:warnings.
+    /// Faults that the scene's reader tolerated, objects that were left out, and other notes, each once per object and
+    /// reason. Pictures have the first of them in their attribute csgrt:warnings.
     const std::vector<Warning>& warnings() const;
-    /// Millimetres, in double precision by the settings' rule.
+    /// The tolerance in millimetres, in double precision by the settings' rule.
     double tolerance() const;
-    /// What a Model compiled anew would be made of: the scene with all edits.
+    /// The scene with all edits: a Model compiled from it is the same.
     Scene scene() const;
 
     /// The rays of a whole view in double precision, one a pixel. Throws Error (usage).
     RayGrid grid_of(const View& view) const;
-    /// The one of a pixel of the picture, counted from its top left. Throws Error (usage).
+    /// The ray of a pixel of the picture, counted from its top left. Throws Error (usage).
     Ray ray_of(const View& view, int column, int row) const {
         const PixelRectangle part = view.part.value_or(PixelRectangle{});
         return grid_of(view).ray(part.left + column, part.top + row);
     }
 
-    /// At a pixel, counted from the top left: to the last bit what a picture in double precision has there. On the
-    /// calling thread, as the next five. Throws Error: usage, out_of_memory.
+    /// The hit at a pixel, counted from the top left: to the last bit that of a picture in double precision. On the
+    /// calling thread, as the next five functions. Throws Error: usage, out_of_memory.
     Pick pick(const View& view, int column, int row) const;
 
-    // The next five do what a Renderer's do, on the calling thread alone: for single rays and short lists. The bits are
-    // those of a Renderer in double precision, with the settings that the Model was given. The native device's kernels
-    // trace, or the reference where there are none. They throw Error: usage, out_of_memory.
+    // The next five functions do what a Renderer's do, on the calling thread alone: for single rays and short lists.
+    // The bits are those of a Renderer in double precision, with the settings of the Model. The native device's kernels
+    // trace, or the reference if there are none. They throw Error: usage, out_of_memory.
 
     void partitions(const Rays& rays, Partitions& answer, Fields fields = {}, const RayRanges& ranges = {}) const;
     void cast_rays(const Rays& rays, Hits& answer, Fields fields = {}, const RayRanges& ranges = {}) const;

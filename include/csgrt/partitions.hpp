@@ -1,4 +1,4 @@
-// What rays meet: which region holds which part of a ray.
+// Partitions: which region holds which part of a ray.
 #pragma once
 
 #include <cstddef>
@@ -19,26 +19,27 @@ struct Partition {
     double in = 0, out = 0;                     ///< distances t along the ray; in may be negative, both infinite
     Vec3 in_normal = {}, out_normal = {};       ///< unit vectors, outward from the region
     std::uint32_t region = 0;                   ///< index into Model::regions()
-    std::uint32_t in_solid = 0, out_solid = 0;  ///< whose surfaces these are: index into Model::solids()
+    std::uint32_t in_solid = 0, out_solid = 0;  ///< solids whose surfaces the boundaries are: indices into
+                                                ///< Model::solids()
 };
 
 /// A part of a ray that several regions of the same rank claim. Ranks are, from the first: solid regions, FASTGEN's
-/// plates, FASTGEN's volumes, air. A region of a later rank yields to one of an earlier rank, which is no overlap. Of
-/// regions of the same rank the first in the model gets the partition.
+/// plates, FASTGEN's volumes, air. A region of a later rank yields to a region of an earlier rank, which is no overlap.
+/// Of regions of the same rank the first in the model gets the partition.
 struct Overlap {
     double in = 0, out = 0;                   ///< as in Partition
     std::vector<std::uint32_t> regions = {};  ///< indices into Model::regions(), ascending
 };
 
-/// Everything along one ray, in the order of distance, but for what ends at a t below 0. Neighbouring partitions of one
-/// region are joined. A ray that starts inside a region has a first partition with a negative `in`, which is where that
-/// region begins; overlaps likewise.
+/// Everything along one ray, in the order of distance, except partitions that end at t < 0. Neighbouring partitions of
+/// one region are joined. A ray that starts inside a region has a first partition with a negative `in`, where the
+/// region begins; the same holds for overlaps.
 struct RayPartitions {
     std::vector<Partition> partitions = {};
     std::vector<Overlap> overlaps = {};
 };
 
-/// What a list of rays is asked for besides rays, regions and distances.
+/// The fields of an answer to a list of rays, besides regions and distances.
 struct Fields {
     bool solids = false;    ///< Whose surfaces the boundaries are.
     bool normals = false;   ///< Unit vectors there, outward from the region.
@@ -47,8 +48,8 @@ struct Fields {
     bool hidden = true;
 };
 
-/// Numbers in a row, in memory of malloc that grows without a copy where the system can move pages, and is kept until
-/// this goes. What resize() adds has any value.
+/// A row of numbers in memory of malloc, which grows without a copy if the system can move pages, and is kept until the
+/// Array is destroyed. Values that resize() adds are undefined.
 template <class T>
 class Array {
     static_assert(std::is_trivially_copyable_v<T>);
@@ -96,9 +97,10 @@ private:
 };
 
 /// Everything along a list of rays, as arrays. The rows of ray i are [ray_splits[i], ray_splits[i + 1]), in order of
-/// distance; neighbouring partitions of one region are one row. A row is cut at the ray's range: there it has the bound
-/// as its distance, -1 as its solid and zeros as its normal. A row of which nothing is left is not there. If the range
-/// is one point, the row is there that begins or goes on at it, and not the one that ends.
+/// distance; neighbouring partitions of one region are one row. A row is cut at the ray's range: there it has the
+/// range's limit as its distance, -1 as its solid and zeros as its normal. A row of which nothing is left is left out.
+/// If the range is one point, the answer has the row that begins or goes on at the point, and not the row that ends
+/// there.
 struct Partitions {
     Array<std::int64_t> ray_splits = {};                  ///< (rays + 1)
     Array<std::int32_t> region_ids = {};                  ///< (rows), indices into Model::regions()
@@ -112,21 +114,21 @@ struct Partitions {
     Array<std::int32_t> overlap_region_ids = {};          ///< all claimants of an overlap, ascending
 };
 
-/// What a picture shows at a pixel, and everything along the pixel's ray.
+/// The hit that a picture shows at a pixel, and everything along the pixel's ray.
 struct Pick {
     std::int32_t region = -1, solid = -1;  ///< indices into Model::regions() and solids(); -1: nothing
     double t = 0;                          ///< distance along the ray, in lengths of its direction
     Vec3 point = {}, normal = {};          ///< millimetres; a unit vector, outward from the region
     Ray ray = {};
-    RayPartitions along = {};  ///< of all regions, hidden ones, too; as Renderer::shoot() gives them
+    RayPartitions along = {};  ///< all regions, hidden ones, too; as in Renderer::shoot()
 };
 
-/// Where a list of rays first meets a region: of each ray the first row that Partitions would have.
+/// The first hits of a list of rays: for each ray the first row that Partitions would have.
 struct Hits {
     Array<double> t_hit = {};             ///< (rays), distances in lengths of the ray's direction; infinity: a miss
     Array<std::int32_t> region_ids = {};  ///< (rays), indices into Model::regions(); -1: a miss
-    /// (rays), if asked for: whose surface it is, index into Model::solids(); -1: a miss, or the range begins inside
-    /// the region.
+    /// (rays), if asked for: the solid whose surface is hit, index into Model::solids(); -1: a miss, or the range
+    /// begins inside the region.
     Array<std::int32_t> solid_ids = {};
     Array<Vec3> normals = {};  ///< (rays), if asked for: unit vectors, outward from the region; zeros where solid is -1
 };

@@ -1,4 +1,4 @@
-// What is traced: lists of rays, grids of rays that devices make themselves, and what of the rays is wanted.
+// Rays: lists of rays, grids of rays that devices make themselves, and the ranges of rays.
 #pragma once
 
 #include <cstddef>
@@ -35,8 +35,8 @@ struct RayRanges {
 
 /// Rays in rows and columns. Ray (column, row), counted from the top left, has the number row x columns + column, and
 ///     across = (column + 1/2 - columns / 2) x right + (rows / 2 - row - 1/2) x up.
-/// A parallel one starts at origin + across and runs along `direction`; a pinhole's starts at `origin` and runs along
-/// the unit vector of direction + across.
+/// A parallel ray starts at origin + across and runs along `direction`; a pinhole's ray starts at `origin` and runs
+/// along the unit vector of direction + across.
 struct CSGRT_API RayGrid {
     Vec3 origin = {};  ///< Millimetres.
     Vec3 direction = {};
@@ -46,26 +46,26 @@ struct CSGRT_API RayGrid {
     bool is_pinhole = false;
 
     std::uint64_t size() const { return std::uint64_t(columns) * std::uint64_t(rows); }
-    /// Throws Error (usage) if the grid has no such ray.
+    /// The ray of a column and a row. Throws Error (usage) if the grid has no such ray.
     Ray ray(int column, int row) const;
-    /// All, by their numbers. Throws Error (usage) for a grid that no device takes.
+    /// All rays, by their numbers. Throws Error (usage) for an invalid grid.
     std::vector<Ray> rays() const;
 };
 
 enum class Axis { x, y, z };
 
-/// Parallel rays along an axis, upward in its coordinate, through the middles of the cells of a box's face. They start
-/// 1 mm before the box. Columns follow x, or y where that is the axis x; the top row has the largest z, or y where z is
-/// the axis. Throws Error (usage) for an empty box and for numbers of rays below 1.
+/// Makes parallel rays along an axis, upward in its coordinate, through the middles of the cells of a box's face. They
+/// start 1 mm before the box. Columns follow x, or y if the axis is x; the top row has the largest z, or y if the axis
+/// is z. Throws Error (usage) for an empty box and for numbers of rays below 1.
 CSGRT_API RayGrid rays_parallel(const Box& box, Axis axis, int columns, int rows);
 
-/// Rays from an eye through the middles of a picture's pixels, which are square. `vertical_fov`: degrees between the
-/// picture's upper and lower edge; `center`: what the picture's middle shows. Throws Error (usage).
+/// Makes rays from an eye through the middles of a picture's pixels, which are square. `vertical_fov`: degrees between
+/// the picture's upper and lower edge; `center`: the point in the picture's middle. Throws Error (usage).
 CSGRT_API RayGrid rays_pinhole(double vertical_fov, const Vec3& center, const Vec3& eye, const Vec3& up, int width,
                                int height);
 
-/// What a call traces: the caller's rays, which must outlive the call, or a grid. Where all its rays have one range, a
-/// device makes them itself, and nothing is copied.
+/// The rays of a call: the caller's list, which must outlive the call, or a grid. If all rays of a grid have one range,
+/// a device makes them itself, and nothing is copied.
 class Rays {
 public:
     Rays() = default;
@@ -76,7 +76,7 @@ public:
 
     std::uint64_t size() const { return grid_ ? grid_->size() : list_.size(); }
     std::span<const Ray> list() const { return list_; }
-    /// Null: it is a list.
+    /// The grid; null for a list.
     const RayGrid* grid() const { return grid_ ? &*grid_ : nullptr; }
 
 private:
@@ -94,8 +94,8 @@ struct Slice {
     bool hidden = true;         ///< False: regions that pictures do not show (State) are not there.
 };
 
-/// The slice of a box by the plane n . p = offset, n being the unit vector of `normal`: square pixels, seen from the
-/// side to which the normal points, z up, or y up where the normal is z. Throws Error (usage).
+/// The slice of a box by the plane n . p = offset; n is the unit vector of `normal`. It has square pixels, seen from
+/// the side to which the normal points, z up, or y up if the normal is along z. Throws Error (usage).
 CSGRT_API Slice slice_of(const Box& box, const Vec3& normal, double offset, int width, int height);
 
 }  // namespace csgrt

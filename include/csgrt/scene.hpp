@@ -1,4 +1,4 @@
-// The model: solids, combined by Boolean trees, some of which are regions; lights and a camera. Lengths are millimetres
+// Scene: solids, combined by Boolean trees, some of which are regions; lights and a camera. Lengths are millimetres
 // throughout; readers convert a file's own units. Colours are display values (sRGB): red, green, blue; 0 to 1.
 #pragma once
 
@@ -15,10 +15,11 @@
 
 namespace csgrt {
 
-/// BRL-CAD's name of a shape's type: "ell", "tgc", "arb8", ... That of an Unsupported is its own, valid as long as it.
+/// BRL-CAD's name of a shape's type: "ell", "tgc", "arb8", ... An Unsupported has its own type, valid as long as the
+/// shape.
 CSGRT_API const char* type_name(const Shape& shape);
 
-/// A solid under a name.
+/// A solid and its name.
 struct Solid {
     std::string name = {};
     Shape shape = {};
@@ -37,8 +38,8 @@ struct TreeNode {
     std::string object = {};   ///< leaf: the name of a solid or a combination
     Matrix matrix = identity;  ///< leaf: from the object's coordinates to those of the tree
     Place place = {};          ///< in the file that it was read from
-    /// Leaf: its name in paths (RegionInfo::path), which no other leaf of the tree may have. Empty: the object's name,
-    /// and from the second leaf of one object on a number, as in "wheel@2".
+    /// Leaf: its name in paths (RegionInfo::path); no other leaf of the tree may have it. Empty: the object's name, and
+    /// a number from the second leaf of the object on, as in "wheel@2".
     std::string name = {};
 };
 /// A Boolean tree, as a list in postfix order, so that its depth costs no stack. Empty: the empty set.
@@ -46,7 +47,7 @@ struct Tree {
     std::vector<TreeNode> nodes = {};
 };
 
-// Trees in code: tree("body") - (tree("bore") | tree("slot", moved)). An empty operand is the empty set.
+// Operators for trees in code: tree("body") - (tree("bore") | tree("slot", moved)). An empty operand is the empty set.
 
 /// A tree of one leaf.
 CSGRT_API Tree tree(std::string object, const Matrix& matrix = identity);
@@ -55,11 +56,11 @@ CSGRT_API Tree operator&(Tree a, Tree b);  ///< intersection
 CSGRT_API Tree operator-(Tree a, Tree b);  ///< difference: a without b
 CSGRT_API Tree operator^(Tree a, Tree b);  ///< exclusive or
 
-/// The light of a region whose shader is BRL-CAD's `light`. It comes from the centre of the region's box. If any
-/// rendered region has one, the scene has no light at the eye. Lights cast no shadows and do not fade with distance.
+/// The light of a region whose shader is BRL-CAD's `light`. It comes from the centre of the region's box. If a rendered
+/// region has one, the scene has no light at the eye. Lights cast no shadows and do not fade with distance.
 struct Emission {
-    /// In relation to other lights without a fraction, the brightest of which has 1 / (1 + half the scene's ambient
-    /// light) of full brightness.
+    /// Brightness relative to other lights without a fraction; the brightest of them has 1 / (1 + half the scene's
+    /// ambient light) of full brightness.
     double intensity = 1;
     double fraction = 0;                 ///< share of full brightness, in place of `intensity`; 0: not given
     double angle = 180;                  ///< between the beam's axis and its edge, degrees
@@ -78,13 +79,14 @@ struct Finish {
     double ambient = 1.0;  ///< times Scene::ambient
     int shine = 10;
     double transmit = 0, reflect = 0;    ///< kept for conversion: pictures show first hits only
-    std::optional<Emission> light = {};  ///< of the shader "light": the region shines, and is not shaded as plastic
+    std::optional<Emission> light = {};  ///< of the shader "light": the region emits light, and is not shaded as
+                                         ///< plastic
 };
 
 /// FASTGEN's kinds of regions. Where regions overlap, a plate yields to regions of no kind, and a volume to both.
 enum class Fastgen : std::uint8_t { none, plate, volume };
 
-/// A Boolean tree under a name. If it is a region, it is one piece of one material.
+/// A Boolean tree and its name. If it is a region, it is one part of one material.
 struct Combination {
     std::string name = {};
     Tree tree = {};
@@ -96,7 +98,7 @@ struct Combination {
     int los = 100;                   ///< BRL-CAD's percentage of the line of sight; kept for conversion
     std::optional<Vec3> color = {};  ///< red, green, blue; 0 to 1
     std::optional<Finish> finish = {};
-    bool color_inherits = false, finish_inherits = false;  ///< true: overrides those of the combinations below
+    bool color_inherits = false, finish_inherits = false;  ///< true: overrides the attributes of the combinations below
     Place place = {};                                      ///< in the file that it was read from
 };
 
@@ -104,15 +106,15 @@ using Object = std::variant<Solid, Combination>;
 
 // ---- Instances ----
 
-/// Whether pictures show a region. Partitions have all regions, unless they are asked for without those not shown.
+/// The visibility of a region in pictures. Partitions have all regions, unless the call leaves out those not shown.
 /// Booleans that use a region do not change with its state.
 enum class State : std::uint8_t {
     shown,
-    ghost,  ///< as hidden, but a picture tells where it would be seen (channel::ghosts)
+    ghost,  ///< as hidden, but a picture shows where it would be seen (channel::ghosts)
     hidden  ///< pictures, picks and first hits pass through it
 };
 
-/// What the regions at a path have in place of what their combinations say.
+/// The appearance of the regions at a path, in place of their combinations' attributes.
 struct Look {
     std::string path = {};  ///< as RegionInfo::path, or the beginning of such paths up to a '/': all regions below it
     std::optional<Vec3> color = {};  ///< red, green, blue; 0 to 1
@@ -122,7 +124,7 @@ struct Look {
 
 // ---- The scene ----
 
-/// A light that is no region. It casts no shadows and does not fade with distance.
+/// A light that is not a region. It casts no shadows and does not fade with distance.
 struct Light {
     Vec3 position = {};
     Vec3 color{1, 1, 1};  ///< red, green, blue; 0 to 1
@@ -138,34 +140,36 @@ struct RegionColor {
     Vec3 color = {};  ///< red, green, blue; 0 to 1
 };
 
-/// A model and how to look at it.
+/// A model, its lights and a camera.
 struct Scene {
     std::string title = {};
     std::string units = "mm";  ///< the file's unit, for conversion: all values here are millimetres
     double unit_length = 1;    ///< millimetres in one `units`
     Camera camera = {};
-    std::vector<Light> lights = {};  ///< if there is none and no region shines: one light at the eye
+    std::vector<Light> lights = {};  ///< none, and no region emits light: one light at the eye
     double ambient = 0.4;            ///< intensity of the ambient light, which comes from the eye
     Vec3 background{0, 0, 0};        ///< red, green, blue; 0 to 1
-    /// Ends of segments that are closer to each other along a ray than this, in millimetres, are one point. 0: ends on
-    /// one surface are (Tolerance::surfaces). Readers of BRL-CAD's files set BRL-CAD's 0.0005.
+    /// Boundaries of segments that are closer to each other along a ray than this, in millimetres, are one point. 0:
+    /// boundaries on one surface are (Tolerance::surfaces). Readers of BRL-CAD's files set BRL-CAD's 0.0005.
     double tolerance = 0;
     std::vector<Object> objects = {};   ///< in the order of the file
-    std::vector<std::string> top = {};  ///< what to render by default; none: every object that no other object uses
+    std::vector<std::string> top = {};  ///< the objects to render by default; empty: every object that no other object
+                                        ///< uses
     std::vector<RegionColor> region_colors = {};
-    std::vector<Look> looks = {};  ///< of two that concern one region the later counts; without such a region: nothing
+    std::vector<Look> looks = {};  ///< if two concern one region, the later counts; one that concerns no region has no
+                                   ///< effect
     /// True: an object that is missing, broken or of an unknown type is the empty set, with a warning. False: such a
     /// scene is refused. BRL-CAD's databases are lenient, as BRL-CAD's ray tracer is.
     bool lenient = false;
-    std::vector<Warning> warnings = {};  ///< what the file's reader tolerated
+    std::vector<Warning> warnings = {};  ///< faults that the file's reader tolerated
 
-    /// The object of that name, or nullptr; valid until `objects` changes. Names are unique: readers refuse duplicates.
+    /// The object of a name, or nullptr; valid until `objects` changes. Names are unique: readers refuse duplicates.
     /// The search is linear.
     CSGRT_API const Object* find(const std::string& name) const;
     CSGRT_API Object* find(const std::string& name);
 };
 
-/// The object of that name, or the one at the end of a path ("all.g/tor.r"), or nullptr; valid until `scene.objects`
+/// The object of a name, or the object at the end of a path ("all.g/tor.r"), or nullptr; valid until `scene.objects`
 /// changes.
 CSGRT_API const Object* object_at(const Scene& scene, const std::string& path);
 
@@ -173,8 +177,8 @@ CSGRT_API const Object* object_at(const Scene& scene, const std::string& path);
 CSGRT_API const std::string& name_of(const Object& object);
 CSGRT_API const Place& place_of(const Object& object);
 
-/// The names of what a Renderer renders by default: `scene.top`, or if that is empty the objects that no combination
-/// uses, in the order of the file.
+/// The names of the objects that a Renderer renders by default: `scene.top`, or if it is empty the objects that no
+/// combination uses, in the order of the file.
 CSGRT_API std::vector<std::string> top_objects(const Scene& scene);
 
 /// Limits that validate() and Renderer enforce: far beyond real models, and far below what exhausts a machine or the
@@ -192,24 +196,26 @@ struct Limits {
     static constexpr std::uint32_t curve_degree = 12;            ///< of a Bezier or NURB curve
     static constexpr std::uint32_t pipe_points = 100'000;        ///< of one pipe
     static constexpr std::uint32_t metaball_points = 10'000;     ///< of one metaball
-    static constexpr double least_exponent = 0.01;               ///< of a superell: with less it is all but a box
-    static constexpr double greatest_exponent = 20;              ///< of a superell: with more it is all but its axes
-    static constexpr double length = 1e15;                       ///< millimetres: coordinates and sizes, placed or not
-    static constexpr double least_length = 1e-15;                ///< millimetres: diagonal of a placed solid's box
+    static constexpr double least_exponent = 0.01;               ///< of a superell: with less it is nearly a box
+    static constexpr double greatest_exponent = 20;              ///< of a superell: with more it is nearly its axes
+    static constexpr double length = 1e15;                       ///< millimetres: coordinates and sizes, transformed or
+                                                                 ///< not
+    static constexpr double least_length = 1e-15;                ///< millimetres: diagonal of a transformed solid's box
     static constexpr double ray_origin = 1e18;                   ///< millimetres: coordinates of a ray's origin
     static constexpr double least_direction = 1e-250;            ///< largest component of a ray's direction, at least
     static constexpr double greatest_direction = 1e250;          ///< and at most
     static constexpr int shine = 10'000;                         ///< of a finish: with more a highlight is a point
-    /// Of a metaball of that method: its fields reach everywhere, so its time grows with their square.
+    /// Points of an isopotential metaball: its fields never end, so its time grows with their square.
     static constexpr std::uint32_t isopotential_points = 1'000;
-    /// By what part of its diameter an arc's chord may be longer: it is a half circle, its radius had few digits.
+    /// The part of its diameter by which an arc's chord may be longer: the arc is a half circle, and its radius had few
+    /// digits.
     static constexpr double half_circle = 1e-5;
 };
 
-/// Checks the objects that `objects` (names or paths; none: the top objects) reach: members that do not exist, cycles,
-/// degenerate solids, singular matrices, numbers that are not finite, trees. Returns every error; none: the model is
-/// valid. If `skip_unsupported`, solids of unknown types are the empty set (see Settings). What is left out instead of
-/// being an error is appended to `warnings`, if that is not null. `max_instances`: see Settings.
+/// Checks the objects of `objects` (names or paths; none: the top objects) and everything that they use: members that
+/// do not exist, cycles, degenerate solids, singular matrices, numbers that are not finite, trees. Returns every error;
+/// none: the model is valid. If `skip_unsupported`, solids of unknown types are the empty set (see Settings). Faults
+/// that only leave objects out are appended to `warnings`, if it is not null. `max_instances`: see Settings.
 CSGRT_API std::vector<Diagnostic> validate(const Scene& scene, const std::vector<std::string>& objects = {},
                                            bool skip_unsupported = false, std::vector<Warning>* warnings = nullptr,
                                            std::uint64_t max_instances = 0);

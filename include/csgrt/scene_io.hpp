@@ -8,7 +8,7 @@
 
 namespace csgrt {
 
-/// How a scene is read.
+/// Options for reading a scene.
 struct LoadOptions {
     /// A BRL-CAD database in which anything is missing or broken is refused, as a .json always is.
     bool strict = false;
@@ -17,9 +17,9 @@ struct LoadOptions {
     std::vector<std::string> file_folders = {};
 };
 
-/// Reads a scene file, whose format its extension tells: .json (csgrt's own format, scenes/csgrt.schema.json), .g
-/// (BRL-CAD binary, v5) or .asc (BRL-CAD text, v4 and v5). The first bytes tell the format of "-", which is standard
-/// input, and of devices and pipes. Lengths are converted to millimetres.
+/// Reads a scene file. Its extension gives the format: .json (csgrt's own format, scenes/csgrt.schema.json), .g
+/// (BRL-CAD binary, v5) or .asc (BRL-CAD text, v4 and v5). For "-", which is standard input, and for devices and pipes
+/// the first bytes give it. Lengths are converted to millimetres.
 ///
 /// BRL-CAD's databases become lenient scenes, unless they are read strictly: an object that cannot be read becomes an
 /// Unsupported solid, with the reason, and other faults become Scene::warnings. A file of cells that the scene may not
@@ -29,7 +29,7 @@ struct LoadOptions {
 /// out_of_memory if the model does not fit. validate() checks the model itself. Any thread.
 CSGRT_API Scene load_scene(const std::string& path, const LoadOptions& options = {});
 
-/// Reads a scene from the bytes of a file; the first bytes tell the format. Errors call the file `name`. Names of files
+/// Reads a scene from the bytes of a file; the first bytes give the format. Errors call the file `name`. Names of files
 /// of cells in it (of an ebm, vol or dsp) are relative to the folder of `name`, and the scene may name only those below
 /// LoadOptions::file_folders. The same holds for standard input, devices and pipes. Throws as load_scene() does. Any
 /// thread.

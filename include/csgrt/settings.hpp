@@ -1,4 +1,4 @@
-// How a Renderer computes, and on what.
+// Settings: how a Renderer computes, and on which device.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace csgrt {
 
-/// What a Renderer, a Verifier and prepare_devices() are given. They copy it.
+/// The settings of a Renderer, a Verifier and prepare_devices(), which copy them.
 struct Settings {
     bool reference = false;  ///< The CPU reference computes, and no device.
     /// Which device: its number in the list of devices, its type ("cpu", "gpu"), or part of its name or platform;

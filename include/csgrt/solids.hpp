@@ -1,5 +1,5 @@
-// The solids and their parameters. Lengths and coordinates are millimetres, angles radians where a comment does not say
-// otherwise. validate() says which values are invalid.
+// Solids and their parameters. Lengths and coordinates are millimetres, angles radians unless a comment says otherwise.
+// validate() checks the values.
 #pragma once
 
 #include <array>
@@ -106,8 +106,8 @@ struct Hrt {
     Vec3 v = {}, x = {}, y = {}, z = {};
     double d = 0;
 };
-/// Metaball: where the sum of the fields of all points is the threshold or more. The field at the distance r from a
-/// point of strength s and softness w (BRL-CAD's sweat) is Method.
+/// Metaball: the points where the sum of the fields of all points is the threshold or more. The field at the distance r
+/// from a point of strength s and softness w (BRL-CAD's sweat) is Method.
 struct Metaball {
     enum class Method : std::uint8_t {
         metaball,      ///< (1 - (r/s)^2)^2 for r < s; BRL-CAD has the name, but not the field
@@ -144,7 +144,7 @@ struct Bot {
         surface,     ///< no inside: each triangle is a skin of twice the scene's tolerance (0: 0.001 mm) along a ray
         volume,      ///< closed: a ray enters and leaves in turn; `orientation` matters only where the mesh has gaps
         plate,       ///< each triangle is a plate of its thickness, or a skin if that is 0
-        plate_nocos  ///< the same, with the thickness measured along the ray
+        plate_nocos  ///< the same as plate, with the thickness measured along the ray
     };
     enum class Orientation : std::uint8_t { unoriented, counterclockwise, clockwise };
     Mode mode = Mode::volume;
@@ -152,7 +152,8 @@ struct Bot {
     std::vector<Vec3> vertices = {};
     std::vector<std::array<std::uint32_t, 3>> faces = {};  ///< three indices into `vertices` each
     std::vector<double> thickness = {};                    ///< plates: millimetres, one a face
-    std::vector<std::uint8_t> append = {};  ///< plates: one a face; 1: it lies behind the face, 0: half on each side
+    std::vector<std::uint8_t> append = {};  ///< plates: one a face; 1: the plate lies behind the face, 0: half on each
+                                            ///< side
     std::vector<Vec3> normals = {};         ///< kept for conversion
     std::vector<std::array<std::uint32_t, 3>> face_normals = {};  ///< kept for conversion: indices into `normals`
 };
@@ -165,21 +166,21 @@ struct Ars {
 struct Nmg {
     using Loop = std::vector<std::uint32_t>;  ///< indices into `vertices`
     std::vector<Vec3> vertices = {};
-    std::vector<std::vector<Loop>> faces = {};  ///< of each, the first loop is the outline, the others are holes
+    std::vector<std::vector<Loop>> faces = {};  ///< the first loop of each is the outline, the others are holes
 };
 /// The cells of a picture, extruded. In its own coordinates a cell is 1 x 1 in x and y, and `height` millimetres high
-/// in z, from 0 on. `matrix` maps these to the model's coordinates.
+/// in z, from 0 on. `matrix` maps these coordinates to the model's.
 struct Ebm {
-    std::string file = {};               ///< where the cells came from, for conversion
+    std::string file = {};               ///< the source of the cells, for conversion
     std::uint32_t width = 0, depth = 0;  ///< cells in x and in y
     double height = 0;
     Matrix matrix = identity;
     std::vector<std::uint8_t> cells = {};  ///< width x depth, row by row from y = 0; other than 0: solid
 };
-/// The cells of a volume; those with low <= value <= high are solid. Each is a box of the size `cell`. `matrix` maps
+/// The cells of a volume; cells with low <= value <= high are solid. Each is a box of the size `cell`. `matrix` maps
 /// them to the model's coordinates.
 struct Vol {
-    std::string file = {};                           ///< where the cells came from, for conversion
+    std::string file = {};                           ///< the source of the cells, for conversion
     std::uint32_t width = 0, depth = 0, height = 0;  ///< cells in x, y and z
     std::uint8_t low = 0, high = 255;
     Vec3 cell{1, 1, 1};  ///< millimetres in x, y and z
@@ -190,9 +191,9 @@ struct Vol {
 /// coordinates.
 struct Dsp {
     enum class Cut : std::uint8_t { adaptive, lower_left, upper_left };  ///< which diagonal splits a cell
-    std::string file = {};               ///< where the heights came from, for conversion
-    std::uint32_t width = 0, depth = 0;  ///< points in x and in y
-    bool smooth = false;                 ///< kept for conversion
+    std::string file = {};                                               ///< the source of the heights, for conversion
+    std::uint32_t width = 0, depth = 0;                                  ///< points in x and in y
+    bool smooth = false;                                                 ///< kept for conversion
     Cut cut = Cut::adaptive;
     Matrix matrix = identity;
     std::vector<std::uint16_t> heights = {};  ///< width x depth, row by row from y = 0
@@ -223,7 +224,7 @@ struct Sketch {
         std::vector<double> weights = {};  ///< one a point; empty: not rational
     };
     using Curve = std::variant<Line, Arc, Bezier, Nurb>;
-    std::string name = {};  ///< of the object that it came from; may be empty
+    std::string name = {};  ///< name of its object in the file; may be empty
     std::vector<Point> vertices = {};
     std::vector<Curve> curves = {};
     std::vector<std::uint8_t> reversed = {};  ///< one a curve; 1: it runs from its end to its start
@@ -240,15 +241,15 @@ struct Revolve {
     double angle = 0;  ///< radians; 2 pi: all round
     Sketch sketch = {};
 };
-/// A solid of a type that csgrt does not support, or without what it needs. It is an error, or in a lenient scene the
+/// A solid of a type that csgrt does not support, or with missing parts. It is an error, or in a lenient scene the
 /// empty set, if a rendered object uses it.
 struct Unsupported {
     std::string type = {};    ///< BRL-CAD's name of the type
-    std::string reason = {};  ///< if csgrt supports the type, what the solid lacks: its file of cells, its sketch
+    std::string reason = {};  ///< if csgrt supports the type, the missing part: its file of cells, its sketch
 };
 
-/// Any one of them: a variant (std::visit, std::get, std::holds_alternative). Its copying and destruction are compiled
-/// once, in the library, since they took a third of the time to compile a file that uses scenes.
+/// Any one of the solids: a variant (std::visit, std::get, std::holds_alternative). Its copying and destruction are
+/// compiled once, in the library, since they took a third of the time to compile a file that uses scenes.
 struct CSGRT_API Shape
     : std::variant<Ell, Tgc, Arb, Arbn, Half, Tor, Ehy, Part, Epa, Rpc, Rhc, Eto, Hyp, Superell, Hrt, Metaball, Pipe,
                    Cline, Bot, Ars, Nmg, Ebm, Vol, Dsp, Extrude, Revolve, Unsupported> {

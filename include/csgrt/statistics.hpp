@@ -1,4 +1,4 @@
-// What the last call of a Renderer counted and measured.
+// Statistics: the counts and times of a Renderer's last call.
 #pragma once
 
 #include <cstdint>
@@ -6,8 +6,8 @@
 
 namespace csgrt {
 
-/// Of the last call of a Renderer. If only first hits are drawn, segments and partitions are counted for those rays
-/// alone that need the computation of every partition.
+/// Counts and times of the last call of a Renderer. If only first hits are drawn, segments and partitions are counted
+/// only for rays that need the computation of every partition.
 struct Statistics {
     std::string device = {};  ///< The device that computed, or "reference".
     /// The device that is made ready at the time of Renderer::statistics() and will replace `device`: its name, "gpu"

@@ -1,5 +1,5 @@
-// Tests whether csgrt computes a model correctly. Rays are shot on the device and on the reference, and both answers
-// are compared with the one of the same geometry in 113-bit arithmetic.
+// Verification: tests whether csgrt computes a model correctly. Rays are shot on the device and on the reference, and
+// both answers are compared with the answer of the same geometry in 113-bit arithmetic.
 //
 //     csgrt::Verifier verifier(scene);
 //     verifier.shoot(verifier.sample(scene.camera, 10'000));
@@ -11,11 +11,11 @@
 //                                                      size: the diagonal of that box
 //
 // away from it, towards the corners of a cube, and for the ray with half and with twice the tolerance. Otherwise the
-// ray is a tie: rounding of its own numbers may give either answer. Where all of 64 rays around a tie meet the same, a
-// distance `shift` away from it, the tie has to meet it, too; else it counts as decided, and wrong. Partitions, and
-// gaps between two partitions of one region, are ignored if they are no longer than the tolerance + shift / cos at each
-// of their ends (cos: of the angle between the ray and the surface's normal). A partition that ends as close to the
-// ray's start is ignored, too: it is left out where rounding puts its end before the start.
+// ray is a tie: rounding of its own numbers may give either answer. If 64 rays around a tie, a distance `shift` away
+// from it, all have the same answer, the tie has to have this answer, too; else it counts as decided, and wrong.
+// Partitions, and gaps between two partitions of one region, are ignored if they are no longer than the tolerance +
+// shift / cos at each of their boundaries (cos: of the angle between the ray and the surface's normal). A partition
+// that ends as close to the ray's start is ignored, too: it is left out if rounding puts its end before the start.
 #pragma once
 
 #include <cstddef>
@@ -28,8 +28,7 @@
 
 namespace csgrt {
 
-/// Where two sequences of regions differ, without what they share before and after that. Indices into
-/// Model::regions().
+/// The difference of two sequences of regions, without their common beginning and end. Indices into Model::regions().
 struct RegionDifference {
     std::vector<std::uint32_t> exact = {}, found = {};
     bool operator==(const RegionDifference&) const = default;
@@ -50,15 +49,15 @@ struct WrongRay : NumberedRay {
 /// Rays that are ties with the same difference. The ray is the first of them.
 struct Tie : NumberedRay {
     RegionDifference difference = {};  ///< `found`: the answer of the shifted ray, or with the other tolerance
-    std::uint64_t rays = 0;            ///< how many they are
+    std::uint64_t rays = 0;            ///< number of these rays
 };
 
-/// The error of one end of a partition, on a decided ray.
+/// The error of one boundary of a partition, on a decided ray.
 struct EndError : NumberedRay {
     double millimetres = 0;    ///< along the ray, from the 113-bit distance rounded to double
-    double ulps = 0;           ///< the same, in units of 2^-53 x (|o| + |distance| + size) / cos
-    double distance = 0;       ///< from the ray's origin to the end, millimetres
-    std::uint32_t region = 0;  ///< whose partition it is: index into Model::regions()
+    double ulps = 0;           ///< the error in units of 2^-53 x (|o| + |distance| + size) / cos
+    double distance = 0;       ///< from the ray's origin to the boundary, millimetres
+    std::uint32_t region = 0;  ///< region of the partition: index into Model::regions()
 };
 
 /// The result for all rays that a Verifier shot.
@@ -69,11 +68,11 @@ struct Verification {
     std::uint64_t decided = 0, ties = 0;
     std::uint64_t wrong = 0;            ///< decided rays with other regions on the device or on the reference
     std::uint64_t bit_differences = 0;  ///< rays whose partitions differ in any bit between device and reference
-    std::uint64_t ends = 0;             ///< ends of partitions whose errors were measured
-    /// Ends whose errors were not measured, since they move by more than 4 shift / cos when the ray is shifted: at
-    /// edges, and where ends closer than the tolerance become one.
+    std::uint64_t ends = 0;             ///< boundaries of partitions whose errors were measured
+    /// Boundaries whose errors were not measured, since they move by more than 4 shift / cos when the ray is shifted:
+    /// at edges, and where boundaries closer than the tolerance become one.
     std::uint64_t leaping_ends = 0;
-    EndError farthest = {}, worst = {};  ///< those with the most millimetres and with the most ulps
+    EndError farthest = {}, worst = {};  ///< the errors with the most millimetres and with the most ulps
 
     static constexpr std::size_t kept = 100;  ///< the largest size of each list below, which has the first ones
     std::vector<WrongRay> wrong_rays = {};
@@ -87,22 +86,22 @@ struct Verification {
 /// Verifies a scene on one device. Not copyable. One thread at a time.
 class CSGRT_API Verifier {
 public:
-    /// As Renderer's. With `settings.reference` only the reference is verified. Throws what Renderer throws, and Error
-    /// (usage) for 113 bits, which are what others are compared with.
+    /// Makes the Renderers that it compares. With `settings.reference` only the reference is verified. Throws what
+    /// Renderer throws, and Error (usage) for 113 bits, the precision of the comparison.
     explicit Verifier(const Scene& scene, const std::vector<std::string>& objects = {}, const Settings& settings = {});
     ~Verifier();
     Verifier(Verifier&&) noexcept;
     Verifier& operator=(Verifier&&) noexcept;
 
-    /// `count` rays to shoot. The largest square number of them up to half of `count` are the pixels of a view, the
-    /// others go through two random points of the model's box and start outside of it. The same seed gives the same
+    /// Makes `count` rays to shoot. The largest square number of them up to half of `count` are the pixels of a view,
+    /// the others go through two random points of the model's box and start outside of it. The same seed gives the same
     /// rays. Throws Error (usage).
     std::vector<Ray> sample(const Camera& camera, std::size_t count, std::uint64_t seed = 1) const;
 
     /// Shoots these rays and adds them to the result. Settings::progress gets the done fraction of this call. Throws as
     /// Renderer::shoot() does.
     void shoot(const std::vector<Ray>& rays);
-    /// Of all rays so far. Valid as long as the Verifier.
+    /// The result for all rays so far. Valid as long as the Verifier.
     const Verification& result() const;
 
     /// The Renderer on the reference, for the names of its regions, its tolerance, its warnings. Valid as long as the

@@ -1,17 +1,17 @@
-// The version of these headers, as macros, and of the library that a program runs with. CMakeLists.txt takes the
-// project's version from here.
+// Version of these headers, as macros, and of the library that a program runs with. CMakeLists.txt takes the project's
+// version from here.
 #pragma once
 
 #define CSGRT_VERSION_MAJOR 0
 #define CSGRT_VERSION_MINOR 2
 #define CSGRT_VERSION_PATCH 0
 
-/// 10,000 x major + 100 x minor + patch, to be compared: #if CSGRT_VERSION >= 200 holds from version 0.2.0 on.
+/// The version as a number, 10,000 x major + 100 x minor + patch: #if CSGRT_VERSION >= 200 holds from version 0.2.0 on.
 #define CSGRT_VERSION (CSGRT_VERSION_MAJOR * 10000 + CSGRT_VERSION_MINOR * 100 + CSGRT_VERSION_PATCH)
 
 #define CSGRT_TEXT_OF_(x) #x
 #define CSGRT_TEXT_(x) CSGRT_TEXT_OF_(x)
-/// "0.2.0"
+/// The version as text, "0.2.0".
 #define CSGRT_VERSION_STRING \
     CSGRT_TEXT_(CSGRT_VERSION_MAJOR) "." CSGRT_TEXT_(CSGRT_VERSION_MINOR) "." CSGRT_TEXT_(CSGRT_VERSION_PATCH)
 

@@ -1,4 +1,4 @@
-// What to draw: the size, camera and channels of a picture.
+// View: the size, camera and channels of a picture.
 #pragma once
 
 #include <cstdint>
@@ -17,9 +17,9 @@ inline constexpr std::uint32_t distance = 2;  ///< Z
 inline constexpr std::uint32_t normal = 4;    ///< N.X N.Y N.Z
 inline constexpr std::uint32_t ids = 8;       ///< region, solid
 inline constexpr std::uint32_t counts = 16;   ///< depth, partitions, overlap: only with View::every_partition
-inline constexpr std::uint32_t all = 31;      ///< of these
-inline constexpr std::uint32_t display = 32;  ///< RGBA8: as display_pixels() has it
-inline constexpr std::uint32_t ghosts = 64;   ///< ghost: the first ghost that the ray passes before what is seen
+inline constexpr std::uint32_t all = 31;      ///< of the groups above
+inline constexpr std::uint32_t display = 32;  ///< RGBA8: as in display_pixels()
+inline constexpr std::uint32_t ghosts = 64;   ///< ghost: the first ghost that the ray passes before the visible surface
 }  // namespace channel
 
 /// Some pixels of a picture, counted from the top left.
