@@ -37,7 +37,7 @@ __kernel void count_rows(__global const Frame* frame, __global const RayRecord* 
 __kernel void write_rows(__global const Frame* frame, __global const RayRecord* rays, __global const RayCount* offsets,
                          __global const End* ends, __global const PartitionNode* nodes, __global const RayCount* places,
                          __global int* regions, __global wide* in, __global wide* out, __global RowEnds* bounds,
-                         __global OverlapPiece* pieces) {
+                         __global OverlapRecord* overlap_records) {
     const u32 id = (u32)get_global_id(0);
     ray_rows rows, overlaps;
     ray_row row;
@@ -59,13 +59,13 @@ __kernel void write_rows(__global const Frame* frame, __global const RayRecord* 
             bounds[place.segments] = b;
         }
     }
-    if (pieces) {
-        OverlapPiece piece;
-        for (; next_overlap(&overlaps, &row, &piece.node); ++place.words) {
-            piece.ray = id;
-            piece.in = row.in;
-            piece.out = row.out;
-            pieces[place.words] = piece;
+    if (overlap_records) {
+        OverlapRecord overlap_record;
+        for (; next_overlap(&overlaps, &row, &overlap_record.node); ++place.words) {
+            overlap_record.ray = id;
+            overlap_record.in = row.in;
+            overlap_record.out = row.out;
+            overlap_records[place.words] = overlap_record;
         }
     }
 }
@@ -104,13 +104,13 @@ __kernel void describe_rows(__global const Frame* frame, GEOMETRY_ARGS, __global
 }
 
 // The partition of a record, whose ray is not deep: kernel 4 evaluated it.
-static cover cover_of(OverlapPiece piece, __global const SolidRecord* solids, REGION_ARGS,
+static cover cover_of(OverlapRecord overlap_record, __global const SolidRecord* solids, REGION_ARGS,
                       __global const RayCount* offsets, __global const End* ends, __global const u32* bits) {
-    const RayCount offset = offsets[piece.ray];
+    const RayCount offset = offsets[overlap_record.ray];
     cover c;
-    c.segments = offsets[piece.ray + 1].segments - offset.segments;
+    c.segments = offsets[overlap_record.ray + 1].segments - offset.segments;
     c.ends = ends + 2 * (size_t)offset.segments;
-    c.bits = bits + offset.words + piece.node * words_of(c.segments);
+    c.bits = bits + offset.words + overlap_record.node * words_of(c.segments);
     c.missed = c.beyond = 0;
     c.marked = 1;
     c.solids = solids;
@@ -121,22 +121,22 @@ static cover cover_of(OverlapPiece piece, __global const SolidRecord* solids, RE
 
 // Counts, one record a work-item, how many claims list_claimants stores on the way.
 __kernel void count_claimants(EVALUATION_ARGS, __global const RayCount* offsets, __global const End* ends,
-                              __global const u32* bits, __global const OverlapPiece* pieces, u32 piece_count,
-                              __global RayCount* places) {
+                              __global const u32* bits, __global const OverlapRecord* overlap_records,
+                              u32 overlap_count, __global RayCount* places) {
     const u32 id = (u32)get_global_id(0);
     RayCount count;
-    if (id >= piece_count) return;
+    if (id >= overlap_count) return;
     count.words = 0;
-    count.segments = claims_at_most(cover_of(pieces[id], solids, starts, trees, offsets, ends, bits));
+    count.segments = claims_at_most(cover_of(overlap_records[id], solids, starts, trees, offsets, ends, bits));
     places[id] = count;
 }
 
 __kernel void list_claimants(__global const Frame* frame, EVALUATION_ARGS, __global const RayCount* offsets,
-                             __global const End* ends, __global const u32* bits, __global const OverlapPiece* pieces,
-                             u32 piece_count, __global const RayCount* places, __global u32* claimants,
-                             __global u32* counts) {
+                             __global const End* ends, __global const u32* bits,
+                             __global const OverlapRecord* overlap_records, u32 overlap_count,
+                             __global const RayCount* places, __global u32* claimants, __global u32* counts) {
     const u32 id = (u32)get_global_id(0);
-    if (id >= piece_count) return;
-    counts[id] = all_claimants(cover_of(pieces[id], solids, starts, trees, offsets, ends, bits), frame->rank_ends,
-                               claimants + places[id].segments);
+    if (id >= overlap_count) return;
+    counts[id] = all_claimants(cover_of(overlap_records[id], solids, starts, trees, offsets, ends, bits),
+                               frame->rank_ends, claimants + places[id].segments);
 }

@@ -78,11 +78,11 @@ static void start_listed(packet* p, __global const Frame* f, __global const RayR
         const u32 ray = id + (r.within >> k & 1u ? k : 0);
         start_sweep(p->sweeps + k);
         p->next_events[k] = BOX_MISSED;
-        p->reach[k].after = rays[ray].t_near;
-        p->reach[k].tolerance = tolerance_along(f, geometry_ray(f, listed_ray(rays[ray])));
-        p->reach[k].unit = length[k];
-        p->reach[k].per_unit = 1 / length[k];
-        p->reach[k].offset = shift[k] - real_abs(shift[k]) * 0x1p-49;  // the rounding of a far origin: see
+        p->units[k].after = rays[ray].t_near;
+        p->units[k].tolerance = tolerance_along(f, geometry_ray(f, listed_ray(rays[ray])));
+        p->units[k].unit = length[k];
+        p->units[k].per_unit = 1 / length[k];
+        p->units[k].offset = shift[k] - real_abs(shift[k]) * 0x1p-49;  // the rounding of a far origin: see
                                                                        // distance_before
     }
 }

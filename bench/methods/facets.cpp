@@ -12,7 +12,7 @@
 
 #include "compile/linear.hpp"
 #include "compile/solids/curved_frames.hpp"
-#include "compile/solids/meshes/mesh_faults.hpp"
+#include "compile/solids/meshes/mesh_repair.hpp"
 #include "compile/solids/polyhedron.hpp"
 #include "loft.hpp"
 #include "scene/vector.hpp"
@@ -323,9 +323,9 @@ struct Faceter {
     }
     Triangles operator()(const Bot& s) const {
         if (s.mode != Bot::Mode::volume) refuse("a bot without an inside");
-        const MendedMesh mended = mend(s);
-        if (!mended.is_closed) refuse("a bot with open edges");
-        return placed(mended.mesh, matrix);
+        const RepairedMesh repaired = repair(s);
+        if (!repaired.is_closed) refuse("a bot with open edges");
+        return placed(repaired.mesh, matrix);
     }
     Triangles operator()(const Ars& s) const { return placed(triangles_of(s), matrix); }
     Triangles operator()(const Nmg& s) const { return placed(triangles_of(s), matrix); }

@@ -11,19 +11,19 @@
 
 FN void start_packet(packet* p, __global const Frame* f, pixel_position first) {
     const packet_world_ray from_eye = rays_through(f, first);
-    sweep_reach reach;
+    sweep_units units;
     real after[PACKET];
     u32 k;
     p->range = range_in_view(f, from_eye);
     vstore8(p->range.after, 0, after);
-    reach.tolerance = f->tolerance;
-    reach.unit = reach.per_unit = 1;
-    reach.offset = distance_of_center(f);
+    units.tolerance = f->tolerance;
+    units.unit = units.per_unit = 1;
+    units.offset = distance_of_center(f);
     for (k = 0; k < PACKET; ++k) {
         start_sweep(p->sweeps + k);
         p->next_events[k] = BOX_MISSED;
-        p->reach[k] = reach;
-        p->reach[k].after = after[k];
+        p->units[k] = units;
+        p->units[k].after = after[k];
     }
     p->rays.o = from_eye.o;
     p->rays.d = from_eye.d;

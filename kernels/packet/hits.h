@@ -41,7 +41,7 @@ FN u32 first_hits_of(packet* p, __global const Frame* f, scene_tables s, __globa
                 ~*overflow_mask & ~hit_mask;
         for (; going; going &= going - 1u) {
             sweep* w = p->sweeps + lowest(going);
-            const sweep_reach r = p->reach[lowest(going)];
+            const sweep_units r = p->units[lowest(going)];
             const real horizon = e.node == NONE ? REAL_INFINITY : ((wide)e.entry + r.offset) * r.per_unit;
             if (advance(w, s, r.tolerance, r.after, horizon)) {
                 hit_mask |= going & (0u - going);

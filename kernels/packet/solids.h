@@ -14,7 +14,7 @@
 typedef struct {
     real after, tolerance;
     wide unit, per_unit, offset;  // per_unit: 1 / unit
-} sweep_reach;
+} sweep_units;
 
 // The rays of a packet on their way through the scene.
 typedef struct {
@@ -23,7 +23,7 @@ typedef struct {
     packet_slab_ray slabs;
     double8 t_min;              // segments that end before it are not wanted
     packet_view_range range;    // of a picture's rays
-    sweep_reach reach[PACKET];  // one a ray
+    sweep_units units[PACKET];  // one a ray
     float next_events[PACKET];  // one a sweep, from next_event_of()
     sweep sweeps[PACKET];
 } packet;
@@ -31,7 +31,7 @@ typedef struct {
 // An estimate of the distance where the next event of ray k is complete, in the distances of the list.
 FN float next_event_of(const packet* p, u32 k) {
     const sweep* w = p->sweeps + k;
-    const sweep_reach r = p->reach[k];
+    const sweep_units r = p->units[k];
     return w->next_event < REAL_INFINITY ? (float)((wide)(w->next_event + r.tolerance) * r.unit - r.offset)
                                          : BOX_MISSED;
 }

@@ -403,7 +403,7 @@ typedef struct {
 typedef struct {
     wide in, out;
     u32 ray, node;
-} OverlapPiece;
+} OverlapRecord;
 
 // The values of one pixel. Frame.channels says which of them the host gets.
 typedef struct {

@@ -16,7 +16,7 @@
 #include "compile/flatten/flatten.hpp"
 #include "compile/half_spaces.hpp"
 #include "compile/hash.hpp"
-#include "compile/looks.hpp"
+#include "compile/appearance.hpp"
 #include "compile/linear.hpp"
 #include "compile/bounds/instance_bounds.hpp"
 #include "compile/regions/pack.hpp"
@@ -120,18 +120,18 @@ CompiledScene compile(const Scene& scene, const std::vector<std::string>& object
     if (flat.regions.empty()) throw Error(Status::scene, nothing_to_render(warnings));
 
     const Clipped clipped = clip_by_half_spaces(scene, flat, measured->boxes);
-    auto [space, order] = space_of(measured->boxes, clipped.reaches.empty() ? measured->boxes : clipped.reaches);
+    auto [space, order] = space_of(measured->boxes, clipped.ray_boxes.empty() ? measured->boxes : clipped.ray_boxes);
     auto [logic, terms] = pack_regions(flat, clipped.trees, order, measured->brlcad_boxes);
     space.starting_node = starting_node(space.nodes, terms);
-    Looks looks = looks_of({scene.lights, scene.ambient, scene.background}, logic.region_info.get(),
-                           logic.region_lights, options.display_shading, warnings);
+    Appearance appearance = appearance_of({scene.lights, scene.ambient, scene.background}, logic.region_info.get(),
+                                          logic.region_lights, options.display_shading, warnings);
     Shapes shapes =
         pack_solids(scene, flat, *measured, clipped, order, space, common_box(scene, flat, space), terms, warnings);
     join_equal(warnings);
     CompiledScene compiled{std::move(space),
                            std::move(logic),
                            std::move(shapes),
-                           std::move(looks),
+                           std::move(appearance),
                            std::make_shared<LateStatusTree>(),
                            0,
                            0,

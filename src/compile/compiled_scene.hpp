@@ -80,7 +80,7 @@ struct Shapes {
 };
 
 /// Appearance: the data for shading.
-struct Looks {
+struct Appearance {
     SharedVector<kernel::MaterialRecord> materials;  ///< one a region
     std::vector<kernel::LightRecord> lights;         ///< the scene's own; empty: the view supplies one
     std::vector<double> background{0, 0, 0};
@@ -97,7 +97,7 @@ struct Looks {
 
 class LateStatusTree;  // regions/status_tree.hpp
 
-struct CompiledScene : Space, Logic, Shapes, Looks {
+struct CompiledScene : Space, Logic, Shapes, Appearance {
     std::shared_ptr<LateStatusTree> status_tree;  ///< made for the first deep ray
     std::uint64_t geometry_hash = 0;              ///< FNV-1a over everything except appearance
     std::uint64_t hash = 0;         ///< FNV-1a over everything that crosses the bus: equal scenes have equal hashes

@@ -8,7 +8,7 @@
 
 #include <glm/glm.hpp>
 
-#include "compile/looks.hpp"
+#include "compile/appearance.hpp"
 #include "compile/screen_bounds.hpp"
 #include "compile/solids/planes.hpp"
 #include "scene/range.hpp"

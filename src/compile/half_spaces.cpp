@@ -261,16 +261,16 @@ Clipped clip_by_half_spaces(const Scene& scene, const FlatScene& flat, const std
                                                                       : Use::bounded);
         });
     }
-    result.reaches = boxes;
+    result.ray_boxes = boxes;
     for (std::size_t i = 0; i < boxes.size(); ++i) {
-        Box& reach = result.reaches[i];
+        Box& box = result.ray_boxes[i];
         if (uses[i] == Use::none) {
-            reach = empty_box;
+            box = empty_box;
         } else if (halves[i] && uses[i] == Use::bounded) {
             std::vector<Plane> faces = sides_of(result.end);
             faces.push_back(*halves[i]);
-            reach = polyhedron_box(faces);
-            reach = is_empty(reach) ? empty_box : widened(reach, 1e-9 * diagonal(reach));
+            box = polyhedron_box(faces);
+            box = is_empty(box) ? empty_box : widened(box, 1e-9 * diagonal(box));
         }
     }
     return result;

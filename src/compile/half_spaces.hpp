@@ -18,7 +18,7 @@ struct Clipped {
     /// One an instance: the box in which rays have to meet it. For most solids it is their own box; for a half-space
     /// that only bounded regions use, its part within `end`; empty if no tree needs the solid and nothing that is left
     /// is near it.
-    std::vector<Box> reaches;
+    std::vector<Box> ray_boxes;
     Box end{};  ///< the box around all bounded solids, farther off than boundaries that are one
 };
 

@@ -33,10 +33,10 @@ public:
     }
     virtual std::size_t ray_bytes() const = 0;
     virtual std::size_t end_bytes() const = 0;
-    virtual std::size_t piece_bytes() const = 0;
+    virtual std::size_t overlap_bytes() const = 0;
     virtual std::size_t wide_bytes() const = 0;
     virtual std::vector<kernel::End> ends(const std::vector<std::byte>& bytes) const = 0;
-    virtual std::vector<kernel::OverlapPiece> pieces(const std::vector<std::byte>& bytes) const = 0;
+    virtual std::vector<kernel::OverlapRecord> overlap_records(const std::vector<std::byte>& bytes) const = 0;
 };
 
 }  // namespace csgrt

@@ -144,8 +144,8 @@ private:
 
     /// Whether a half-space is bounded by the scene's box.
     bool ends(std::uint32_t instance) const {
-        return !clipped_.reaches.empty() && is_finite(clipped_.reaches[instance]) &&
-               !is_empty(clipped_.reaches[instance]);
+        return !clipped_.ray_boxes.empty() && is_finite(clipped_.ray_boxes[instance]) &&
+               !is_empty(clipped_.ray_boxes[instance]);
     }
 
     void append_keys(const std::vector<Plane>& planes, std::vector<PackedPlane>& keys) const {

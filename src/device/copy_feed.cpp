@@ -12,7 +12,7 @@ namespace {
 
 // The bytes underway: a chunk takes longer than a copy takes to begin, 4 microseconds; with two underway, the bus has
 // no pause (docs/experiments.md).
-constexpr std::size_t most_underway = 2 * CopyFeed::piece;
+constexpr std::size_t most_underway = 2 * CopyFeed::chunk;
 constexpr std::size_t floats_a_thread = std::size_t{1} << 19;  // fewer are written sooner than a thread wakes
 
 std::size_t end_of(const CopyFeed::Copy& copy) {
@@ -50,7 +50,7 @@ CopyFeed::~CopyFeed() {
 
 std::shared_future<void> CopyFeed::add(const Buffer& buffer, std::vector<Copy> copies, bool is_registered) {
     for (const Copy& copy : copies)
-        if (end_of(copy) * sizeof(float) > buffer.size() || copy.columns * copy.channels > piece)
+        if (end_of(copy) * sizeof(float) > buffer.size() || copy.columns * copy.channels > chunk)
             throw std::logic_error("buffer " + buffer.name() + ": a transfer past its end, or of too long lines");
     if (!is_registered && !staging_) staging_.emplace(device_, "staging memory", most_underway * sizeof(float));
     const auto job = std::make_shared<Job>(buffer, std::move(copies), is_registered);
@@ -90,7 +90,7 @@ void CopyFeed::work() {
 void CopyFeed::give(const std::shared_ptr<Job>& job) {
     try {
         for (const Copy& copy : job->copies) {
-            const std::size_t lines = piece / (copy.columns * copy.channels);
+            const std::size_t lines = chunk / (copy.columns * copy.channels);
             for (std::size_t y = 0; y < copy.lines; y += lines) {
                 Copy part = copy;
                 part.lines = std::min(lines, copy.lines - y);
@@ -107,7 +107,7 @@ void CopyFeed::give(const std::shared_ptr<Job>& job) {
 void CopyFeed::give_piece(const std::shared_ptr<Job>& job, const Copy& copy) {
     Copy first = copy;  // the part that the device copies next
     if (!job->is_registered) {
-        first.target = static_cast<float*>(staging_->data()) + next_ * piece;
+        first.target = static_cast<float*>(staging_->data()) + next_ * chunk;
         first.target_pitch = copy.columns;
         first.target_slice = copy.columns * copy.lines;
         next_ = 1 - next_;

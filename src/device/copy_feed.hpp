@@ -21,7 +21,7 @@ namespace csgrt {
 class CopyFeed {
 public:
     /// A rectangle of a picture: floats in several channels, of each channel some lines, one beneath the other. A line
-    /// of all channels has at most `piece` floats.
+    /// of all channels has at most `chunk` floats.
     struct Copy {
         std::size_t columns, lines = 1, channels = 1;
         /// The position of the first float in the buffer; the distance from line to line; and from channel to channel,
@@ -32,7 +32,7 @@ public:
 
         std::size_t size() const { return columns * lines * channels; }
     };
-    static constexpr std::size_t piece = std::size_t{1} << 21;  ///< floats
+    static constexpr std::size_t chunk = std::size_t{1} << 21;  ///< floats
 
     explicit CopyFeed(const Device& device);
     CopyFeed(const CopyFeed&) = delete;

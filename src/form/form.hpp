@@ -281,7 +281,7 @@ struct Head {
 constexpr Head solid(const char* called, const char* about = "") { return {called, about, true, true}; }
 constexpr Head part(const char* called, const char* about = "") { return {called, about, false, true}; }
 /// A solid by the numbers that a person knows: JSON's reader makes one of the model's of it.
-constexpr Head friendly(const char* called, const char* about = "") { return {called, about, true, false}; }
+constexpr Head simple(const char* called, const char* about = "") { return {called, about, true, false}; }
 /// An object of a file that is no solid.
 constexpr Head plain(const char* called, const char* about = "") { return {called, about, false, false}; }
 

@@ -12,7 +12,7 @@
 #include "formats/brlcad/g/bytes.hpp"
 #include "formats/json/reader.hpp"
 #include "formats/json/write/writer.hpp"
-#include "formats/mended.hpp"
+#include "formats/strict_scene.hpp"
 #include "formats/brlcad/view_script.hpp"
 #include "formats/text_source.hpp"
 #include "base/floating_point.hpp"
@@ -80,7 +80,7 @@ void save_scene(const Scene& scene, const std::string& path) {
     if (path != "-" && extension_of(path) != ".json" && !target_of(path).direct) {
         refuse(path, "scenes are written as .json", "give the file a name that ends in .json");
     }
-    const std::string text = json_scene_text(scene.lenient ? mended(scene) : scene);  // JSON is strict
+    const std::string text = json_scene_text(scene.lenient ? strict_scene(scene) : scene);  // JSON is strict
     if (path == "-") {
         std::fflush(stdout);
         NewFile::write_to(STDOUT_FILENO, text, "standard output");

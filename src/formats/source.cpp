@@ -89,9 +89,9 @@ void Findings::add(std::size_t offset, std::string object, std::string message, 
         {source_.place(offset, std::move(object)), std::move(message), std::move(suggestion), source_.excerpt(offset)});
 }
 
-void Findings::bear(Fault fault, const std::string& object, const char* done) {
-    if (borne_ == nullptr) return add(std::move(fault), object);
-    borne_->push_back({object, source_.place(fault.offset, object), std::move(fault.message) + "; " + done, 1});
+void Findings::tolerate(Fault fault, const std::string& object, const char* done) {
+    if (tolerated_ == nullptr) return add(std::move(fault), object);
+    tolerated_->push_back({object, source_.place(fault.offset, object), std::move(fault.message) + "; " + done, 1});
 }
 
 void Findings::throw_if_any() {

@@ -52,8 +52,9 @@ inline constexpr const char* passed_over = "passed over";
 /// The faults of one file, reported all at once.
 class Findings {
 public:
-    /// Faults that a lenient scene tolerates go to `borne`.
-    explicit Findings(const Source& source, std::vector<Warning>* borne = nullptr) : source_(source), borne_(borne) {}
+    /// Faults that a lenient scene tolerates go to `tolerated`.
+    explicit Findings(const Source& source, std::vector<Warning>* tolerated = nullptr)
+        : source_(source), tolerated_(tolerated) {}
 
     void add(std::size_t offset, std::string object, std::string message, std::string suggestion = {});
     void add(Fault fault, std::string object) {
@@ -61,8 +62,8 @@ public:
     }
     /// Tolerates a fault after which the rest of the file keeps its meaning: adds a warning that ends in `done`, or a
     /// finding if the scene is strict.
-    void bear(Fault fault, const std::string& object, const char* done);
-    bool is_lenient() const noexcept { return borne_ != nullptr; }
+    void tolerate(Fault fault, const std::string& object, const char* done);
+    bool is_lenient() const noexcept { return tolerated_ != nullptr; }
     Place place(std::size_t offset, const std::string& object) const { return source_.place(offset, object); }
     bool empty() const noexcept { return list_.empty(); }
     /// Whether further findings are counted and not shown: they need no suggestion.
@@ -76,7 +77,7 @@ public:
 
 private:
     const Source& source_;
-    std::vector<Warning>* borne_;
+    std::vector<Warning>* tolerated_;
     FindingList list_;
 };
 

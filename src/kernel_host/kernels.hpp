@@ -30,7 +30,7 @@ static_assert(sizeof(StartRecord) == 32);
 static_assert(sizeof(RayTally) == sizeof(RayCount) && sizeof(CandidateCount) == sizeof(RayCount));
 static_assert(sizeof(Pixel) == 52);
 static_assert(sizeof(RayRecord) == 64);
-static_assert(sizeof(RowEnds) == 12 && sizeof(OverlapPiece) == 24);
+static_assert(sizeof(RowEnds) == 12 && sizeof(OverlapRecord) == 24);
 static_assert(sizeof(TileNode) == 8);
 static_assert(sizeof(DeepRay) == 52);
 static_assert(sizeof(DeepSegment) == 28);

@@ -28,7 +28,7 @@ struct ClaimedPartition {
 }  // namespace
 
 // One ray's answer, and the memory that the next ray uses again.
-struct Reference::Claims {
+struct Reference::RayAnswer {
     std::vector<kernel::End> ends;
     std::vector<ClaimedPartition> partitions;
     Weaver weaver;
@@ -38,7 +38,7 @@ struct Reference::Claims {
     std::vector<std::uint8_t> values;   ///< of a tree's operands, while it is evaluated
     std::vector<kernel::End> row_ends;  ///< of a list's ray
     std::vector<kernel::PartitionNode> nodes;
-    std::vector<kernel::OverlapPiece> pieces;
+    std::vector<kernel::OverlapRecord> overlap_records;
     std::size_t woven = 0, overlaps = 0;
     std::size_t first_seen = SIZE_MAX;  ///< index in `partitions` of the first one that ends behind t_min
 };
@@ -111,14 +111,14 @@ bool Reference::is_one_solid(const WovenPartition& partition, const std::vector<
                                [&](std::uint32_t segment) { return solid(segment) == solid(partition.segments[0]); });
 }
 
-void Reference::find_claimants(const WovenPartition& partition, std::uint32_t missed, Claims& claims,
+void Reference::find_claimants(const WovenPartition& partition, std::uint32_t missed, RayAnswer& answer,
                                std::vector<std::uint32_t>& claimants) const {
-    auto &solids = claims.solids, &table = claims.table;
+    auto &solids = answer.solids, &table = answer.table;
     solids.clear();
     table.clear();
     claimants.clear();
     for (const std::uint32_t segment : partition.segments) {
-        const kernel::End& end = claims.ends[2 * segment];
+        const kernel::End& end = answer.ends[2 * segment];
         if (!(end.surface & missed)) solids.push_back(end.solid);
     }
     std::sort(solids.begin(), solids.end());
@@ -127,7 +127,7 @@ void Reference::find_claimants(const WovenPartition& partition, std::uint32_t mi
     std::sort(table.begin(), table.end());
     table.erase(std::unique(table.begin(), table.end()), table.end());
     for (const std::uint32_t region : table)
-        if (inside(region, solids, claims.values)) claimants.push_back(region);
+        if (inside(region, solids, answer.values)) claimants.push_back(region);
     if (claimants.empty()) return;
     // Claimants of a later rank yield to the first rank, and no overlap is reported.
     const std::uint32_t rank = rank_of(scene_.region_info[claimants.front()]);
@@ -135,13 +135,13 @@ void Reference::find_claimants(const WovenPartition& partition, std::uint32_t mi
 }
 
 // The side whose regions come first has the partition, and its overlap.
-void Reference::find_beside(const WovenPartition& partition, std::uint32_t beyond, Claims& claims) const {
-    auto &claimants = claims.claimants, &here = claims.beside;
+void Reference::find_beside(const WovenPartition& partition, std::uint32_t beyond, RayAnswer& answer) const {
+    auto &claimants = answer.claimants, &here = answer.beside;
     claimants.clear();
     const auto second = [](const std::vector<std::uint32_t>& of) { return of.size() > 1 ? of[1] : NONE; };
     for (const std::uint32_t side : {MISSED_ABOVE, MISSED_BELOW, MISSED_LEFT, MISSED_RIGHT}) {
         if (side & beyond) continue;
-        find_claimants(partition, side, claims, here);
+        find_claimants(partition, side, answer, here);
         if (here.empty()) continue;
         if (claimants.empty() || here.front() < claimants.front() ||
             (here.front() == claimants.front() && second(here) < second(claimants)))
@@ -149,31 +149,31 @@ void Reference::find_beside(const WovenPartition& partition, std::uint32_t beyon
     }
 }
 
-void Reference::evaluate(const kernel::Frame& frame, const kernel::RayRecord& ray, Claims& claims) const {
-    claims.partitions.clear();
-    claims.woven = claims.overlaps = 0;
-    claims.first_seen = SIZE_MAX;
-    const std::span<const WovenPartition> woven = kernels_.trace(frame, ray, near_, claims.ends, claims.weaver);
-    if (claims.ends.empty()) return;
-    claims.woven = woven.size();
+void Reference::evaluate(const kernel::Frame& frame, const kernel::RayRecord& ray, RayAnswer& answer) const {
+    answer.partitions.clear();
+    answer.woven = answer.overlaps = 0;
+    answer.first_seen = SIZE_MAX;
+    const std::span<const WovenPartition> woven = kernels_.trace(frame, ray, near_, answer.ends, answer.weaver);
+    if (answer.ends.empty()) return;
+    answer.woven = woven.size();
     const bool is_picture = frame.work != WORK_RAYS;
     ReferenceKernels::Seen seen{0, std::numeric_limits<double>::infinity(), 0};
     if (is_picture || frame.clip_count)
         seen = kernels_.seen(frame, {{ray.ox, ray.oy, ray.oz}, {ray.dx, ray.dy, ray.dz}});
 
-    const std::vector<std::uint32_t>& claimants = claims.claimants;
+    const std::vector<std::uint32_t>& claimants = answer.claimants;
     for (const WovenPartition& partition : woven) {
-        if (seen.beyond || (in_contact(partition, claims.ends) && !is_one_solid(partition, claims.ends))) {
-            find_beside(partition, seen.beyond, claims);
+        if (seen.beyond || (in_contact(partition, answer.ends) && !is_one_solid(partition, answer.ends))) {
+            find_beside(partition, seen.beyond, answer);
         } else {
-            find_claimants(partition, 0, claims, claims.claimants);
+            find_claimants(partition, 0, answer, answer.claimants);
         }
-        if (claimants.size() > 1) ++claims.overlaps;
+        if (claimants.size() > 1) ++answer.overlaps;
         if (claimants.empty()) continue;
 
         ClaimedPartition claim;
-        claim.in = claims.ends[partition.in_end];
-        claim.out = claims.ends[partition.out_end];
+        claim.in = answer.ends[partition.in_end];
+        claim.out = answer.ends[partition.out_end];
         claim.in.t = partition.in;
         claim.out.t = partition.out;
         claim.in_leaves = partition.in_end % 2 == 1;
@@ -182,9 +182,9 @@ void Reference::evaluate(const kernel::Frame& frame, const kernel::RayRecord& ra
         if (claimants.size() > 1) claim.claimants = claimants;
         const bool is_in_range = partition.out > seen.after && partition.in < seen.before && seen.after < seen.before;
         const bool is_seen = is_in_range && rank_of(scene_.region_info[claim.region]) != RANK_HIDDEN;
-        claims.partitions.push_back(std::move(claim));
-        if (claims.first_seen == SIZE_MAX && is_seen) {
-            claims.first_seen = claims.partitions.size() - 1;
+        answer.partitions.push_back(std::move(claim));
+        if (answer.first_seen == SIZE_MAX && is_seen) {
+            answer.first_seen = answer.partitions.size() - 1;
             if (!frame.every_partition) return;
         }
     }
@@ -196,8 +196,8 @@ void Reference::parallel(std::size_t count, Watch* watch, const Work& work) cons
     std::mutex mutex;
     if (watch) watch->begin(count);
     for_chunks(count, 64, 0, [&](std::size_t begin, std::size_t end, std::size_t) {
-        Claims claims;
-        work(begin, end, claims, mutex);
+        RayAnswer answer;
+        work(begin, end, answer, mutex);
         if (watch) watch->add(end - begin);
     });
 }
@@ -206,7 +206,7 @@ std::vector<kernel::Pixel> Reference::render(const PreparedFrame& prepared, Watc
                                              const std::vector<std::uint32_t>* some) const {
     const kernel::Frame& frame = prepared.frame;
     std::vector<kernel::Pixel> pixels(some ? some->size() : std::size_t{frame.width} * frame.height);
-    parallel(pixels.size(), watch, [&](std::size_t begin, std::size_t end, Claims& claims, std::mutex& mutex) {
+    parallel(pixels.size(), watch, [&](std::size_t begin, std::size_t end, RayAnswer& answer, std::mutex& mutex) {
         ReferenceCounts sum;
         for (std::size_t i = begin; i < end; ++i) {
             if (watch) watch->check();
@@ -216,23 +216,23 @@ std::vector<kernel::Pixel> Reference::render(const PreparedFrame& prepared, Watc
             evaluate(
                 frame,
                 {ray.origin.x, ray.origin.y, ray.origin.z, ray.direction.x, ray.direction.y, ray.direction.z, 0, 0},
-                claims);
+                answer);
             kernel::Pixel pixel;
-            if (claims.first_seen == SIZE_MAX) {
+            if (answer.first_seen == SIZE_MAX) {
                 pixel = kernel::background_pixel(&frame);
             } else {
-                const ClaimedPartition& hit = claims.partitions[claims.first_seen];
+                const ClaimedPartition& hit = answer.partitions[answer.first_seen];
                 const kernel::MaterialRecord& material = scene_.materials[hit.region];
                 pixel = kernels_.hit_pixel(frame, prepared.lights, hit.region, material, ray, hit.in, hit.in_leaves);
             }
-            pixel.depth = static_cast<std::uint32_t>(claims.ends.size() / 2);
-            pixel.partitions = static_cast<std::uint32_t>(claims.woven);
-            pixel.overlap = static_cast<std::uint32_t>(claims.overlaps);
+            pixel.depth = static_cast<std::uint32_t>(answer.ends.size() / 2);
+            pixel.partitions = static_cast<std::uint32_t>(answer.woven);
+            pixel.overlap = static_cast<std::uint32_t>(answer.overlaps);
             pixels[i] = pixel;
-            sum.ends += claims.ends.size();
-            sum.segments += claims.ends.size() / 2;
-            sum.partitions += claims.woven;
-            sum.overlaps += claims.overlaps;
+            sum.ends += answer.ends.size();
+            sum.segments += answer.ends.size() / 2;
+            sum.partitions += answer.woven;
+            sum.overlaps += answer.overlaps;
         }
         const std::lock_guard lock(mutex);
         counts.ends += sum.ends;
@@ -245,27 +245,28 @@ std::vector<kernel::Pixel> Reference::render(const PreparedFrame& prepared, Watc
 
 // The rows use a node for each claim, as kernel 4 leaves them: a boundary's index is odd where a solid ends.
 void Reference::append_rows(const kernel::Frame& frame, const kernel::RayRecord& record, std::uint32_t ray,
-                            Fields fields, Claims& claims, RowMemory& rows) const {
-    const std::size_t count = claims.partitions.size();
-    claims.row_ends.assign(4 * count, kernel::End{});
-    claims.nodes.assign(2 * ((count + 1) / 2), kernel::PartitionNode{NONE, NONE, NONE, NONE});
+                            Fields fields, RayAnswer& answer, RowMemory& rows) const {
+    const std::size_t count = answer.partitions.size();
+    answer.row_ends.assign(4 * count, kernel::End{});
+    answer.nodes.assign(2 * ((count + 1) / 2), kernel::PartitionNode{NONE, NONE, NONE, NONE});
     for (std::uint32_t i = 0; i < count; ++i) {
-        const ClaimedPartition& claim = claims.partitions[i];
+        const ClaimedPartition& claim = answer.partitions[i];
         const std::uint32_t in = 4 * i + (claim.in_leaves ? 1 : 0), out = 4 * i + (claim.out_enters ? 2 : 3);
-        claims.row_ends[in] = claim.in;
-        claims.row_ends[out] = claim.out;
-        claims.nodes[i] = {in, out, i + 1 < count ? i + 1 : NONE,
+        answer.row_ends[in] = claim.in;
+        answer.row_ends[out] = claim.out;
+        answer.nodes[i] = {in, out, i + 1 < count ? i + 1 : NONE,
                            claim.region | (claim.claimants.empty() ? 0 : OVERLAP)};
     }
-    kernels_.append_rows(frame, record, claims.row_ends, claims.nodes, fields, rows, claims.pieces);
+    kernels_.append_rows(frame, record, answer.row_ends, answer.nodes, fields, rows, answer.overlap_records);
     if (!fields.overlaps) return;
-    for (const kernel::OverlapPiece& piece : claims.pieces)
-        append_overlap(ray, piece.in, piece.out, claims.partitions[piece.node].claimants, rows);
+    for (const kernel::OverlapRecord& overlap_record : answer.overlap_records)
+        append_overlap(ray, overlap_record.in, overlap_record.out, answer.partitions[overlap_record.node].claimants,
+                       rows);
 }
 
-void Reference::trace(const kernel::Frame& frame, const RayList& list, RowTaker& sink, Watch* watch,
+void Reference::trace(const kernel::Frame& frame, const RayList& list, RowReceiver& receiver, Watch* watch,
                       ReferenceCounts& counts) const {
-    const auto trace_some = [&](std::size_t begin, std::size_t end, Claims& claims, std::mutex& mutex) {
+    const auto trace_some = [&](std::size_t begin, std::size_t end, RayAnswer& answer, std::mutex& mutex) {
         ReferenceCounts sum;
         RowMemory rows;
         rows.places.resize(1);
@@ -273,23 +274,23 @@ void Reference::trace(const kernel::Frame& frame, const RayList& list, RowTaker&
             if (watch) watch->check();
             const kernel::RayRecord record = list.record(i);
             kernels_.check({&record, 1}, i);
-            evaluate(frame, record, claims);
-            append_rows(frame, record, static_cast<std::uint32_t>(i - begin), sink.fields(), claims, rows);
+            evaluate(frame, record, answer);
+            append_rows(frame, record, static_cast<std::uint32_t>(i - begin), receiver.fields(), answer, rows);
             rows.places.push_back({static_cast<std::uint32_t>(rows.regions.size()), 0});
-            sum.ends += claims.ends.size();
-            sum.segments += claims.ends.size() / 2;
-            sum.partitions += claims.woven;
-            sum.overlaps += claims.pieces.size();
+            sum.ends += answer.ends.size();
+            sum.segments += answer.ends.size() / 2;
+            sum.partitions += answer.woven;
+            sum.overlaps += answer.overlap_records.size();
         }
-        sink.put(rows.view(begin, end - begin, sink.fields()));
+        receiver.put(rows.view(begin, end - begin, receiver.fields()));
         const std::lock_guard lock(mutex);
         counts.ends += sum.ends;
         counts.segments += sum.segments;
         counts.partitions += sum.partitions;
         counts.overlaps += sum.overlaps;
     };
-    parallel(list.size(), watch, [&](std::size_t begin, std::size_t end, Claims& claims, std::mutex& mutex) {
-        sink.guard([&] { trace_some(begin, end, claims, mutex); });
+    parallel(list.size(), watch, [&](std::size_t begin, std::size_t end, RayAnswer& answer, std::mutex& mutex) {
+        receiver.guard([&] { trace_some(begin, end, answer, mutex); });
     });
 }
 

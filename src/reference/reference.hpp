@@ -7,7 +7,7 @@
 
 #include "base/watch.hpp"
 #include "compile/lists/ray_list.hpp"
-#include "compile/lists/sink.hpp"
+#include "compile/lists/row_receivers.hpp"
 #include "compile/frame.hpp"
 #include "reference/reference_kernels.hpp"
 
@@ -27,25 +27,25 @@ public:
     std::vector<kernel::Pixel> render(const PreparedFrame& prepared, Watch* watch, ReferenceCounts& counts,
                                       const std::vector<std::uint32_t>* some = nullptr) const;
     /// Traces every ray of a list, and puts the rows into the sink.
-    void trace(const kernel::Frame& frame, const RayList& rays, RowTaker& sink, Watch* watch,
+    void trace(const kernel::Frame& frame, const RayList& rays, RowReceiver& receiver, Watch* watch,
                ReferenceCounts& counts) const;
 
 private:
-    struct Claims;
+    struct RayAnswer;
     /// Does the ray run in a face of one of its solids?
     static bool in_contact(const WovenPartition& partition, const std::vector<kernel::End>& ends);
     static bool is_one_solid(const WovenPartition& partition, const std::vector<kernel::End>& ends);
     /// The regions of the first rank that claim a partition, ascending, by its solids except those whose boundaries
     /// have any of the marks `missed`.
-    void find_claimants(const WovenPartition& partition, std::uint32_t missed, Claims& claims,
+    void find_claimants(const WovenPartition& partition, std::uint32_t missed, RayAnswer& answer,
                         std::vector<std::uint32_t>& claimants) const;
     /// The claimants of a partition in which the ray runs in a face, by the rule of contact (kernels/boolean/claim.h).
     /// `beyond`: sides that are cut away.
-    void find_beside(const WovenPartition& partition, std::uint32_t beyond, Claims& claims) const;
-    void evaluate(const kernel::Frame& frame, const kernel::RayRecord& ray, Claims& claims) const;
+    void find_beside(const WovenPartition& partition, std::uint32_t beyond, RayAnswer& answer) const;
+    void evaluate(const kernel::Frame& frame, const kernel::RayRecord& ray, RayAnswer& answer) const;
     /// Adds a listed ray's rows, and rows of overlaps.
     void append_rows(const kernel::Frame& frame, const kernel::RayRecord& record, std::uint32_t ray, Fields fields,
-                     Claims& claims, RowMemory& rows) const;
+                     RayAnswer& answer, RowMemory& rows) const;
     bool inside(std::uint32_t region, const std::vector<std::uint32_t>& solids,
                 std::vector<std::uint8_t>& values) const;
     template <class Work>

@@ -28,7 +28,8 @@ public:
     /// ray's, as kernel 4 leaves them.
     virtual void append_rows(const kernel::Frame& frame, const kernel::RayRecord& ray,
                              const std::vector<kernel::End>& ends, const std::vector<kernel::PartitionNode>& nodes,
-                             Fields fields, RowMemory& rows, std::vector<kernel::OverlapPiece>& pieces) const = 0;
+                             Fields fields, RowMemory& rows,
+                             std::vector<kernel::OverlapRecord>& overlap_records) const = 0;
     /// The visible range of a picture's ray, in the form that is compared with boundaries (kernels/traversal/view.h),
     /// and the sides that planes of the view cut away (MISSED_...).
     struct Seen {

@@ -13,7 +13,7 @@
 #include "base/watch.hpp"
 #include "compile/frame.hpp"
 #include "compile/lists/ray_list.hpp"
-#include "compile/lists/sink.hpp"
+#include "compile/lists/row_receivers.hpp"
 #include "pipeline/readback/registered_memory.hpp"
 #include "pipeline/readback/picture.hpp"
 #include "reference/reference_kernels.hpp"
@@ -49,9 +49,9 @@ public:
     virtual void prepare(bool every_partition) = 0;
     virtual void render(const PreparedFrame& frame, const FrameMemory& memory, Watch& watch) = 0;
     /// Puts the rows of every ray into the sink.
-    virtual void trace(const kernel::Frame& frame, const RayList& rays, RowTaker& sink, Watch& watch) = 0;
+    virtual void trace(const kernel::Frame& frame, const RayList& rays, RowReceiver& receiver, Watch& watch) = 0;
     /// Checks before the call ends that the rows are those of the reference. See SpotCheck.
-    virtual void check(const kernel::Frame&, const RayList&, const RowTaker&, Watch&) {}
+    virtual void check(const kernel::Frame&, const RayList&, const RowReceiver&, Watch&) {}
 
     /// The name of the device, or of several, that answers the next call.
     virtual std::string name() const = 0;

@@ -66,19 +66,19 @@ void DeviceBackend::render(const PreparedFrame& frame, const FrameMemory& memory
         .channels = memory.channels, .covered = memory.covered, .registered = memory.registered.get()};
     try {
         counted([&] { drawer_->render(frame, target, &watch, counts_); });
-        spot_check_.look_at(model_->scene, frame, memory, counts_.done, drawer_->name(), watch);
+        spot_check_.compare(model_->scene, frame, memory, counts_.done, drawer_->name(), watch);
     } catch (...) {  // pixels may be missing in covered tiles
         std::ranges::fill(memory.covered, std::uint8_t{1});
         throw;
     }
 }
 
-void DeviceBackend::trace(const kernel::Frame& frame, const RayList& rays, RowTaker& sink, Watch& watch) {
-    counted([&] { drawer_->trace_list(frame, rays, sink, &watch, counts_); });
+void DeviceBackend::trace(const kernel::Frame& frame, const RayList& rays, RowReceiver& receiver, Watch& watch) {
+    counted([&] { drawer_->trace_list(frame, rays, receiver, &watch, counts_); });
 }
 
-void DeviceBackend::check(const kernel::Frame& frame, const RayList& rays, const RowTaker& taker, Watch& watch) {
-    spot_check_.look_at(model_->scene, frame, rays, taker, counts_.done, drawer_->name(), watch);
+void DeviceBackend::check(const kernel::Frame& frame, const RayList& rays, const RowReceiver& receiver, Watch& watch) {
+    spot_check_.compare(model_->scene, frame, rays, receiver, counts_.done, drawer_->name(), watch);
 }
 
 std::string DeviceBackend::method(bool every_partition) const {

@@ -19,8 +19,8 @@ public:
     void set_model(std::shared_ptr<const ModelInUse> model) override;
     void prepare(bool every_partition) override;
     void render(const PreparedFrame& frame, const FrameMemory& memory, Watch& watch) override;
-    void trace(const kernel::Frame& frame, const RayList& rays, RowTaker& sink, Watch& watch) override;
-    void check(const kernel::Frame& frame, const RayList& rays, const RowTaker& taker, Watch& watch) override;
+    void trace(const kernel::Frame& frame, const RayList& rays, RowReceiver& receiver, Watch& watch) override;
+    void check(const kernel::Frame& frame, const RayList& rays, const RowReceiver& receiver, Watch& watch) override;
     std::string name() const override { return group().name(); }
     void report(Statistics& statistics) const override;
     std::string method(bool every_partition) const override;

@@ -4,9 +4,9 @@
 #include <unordered_map>
 #include <utility>
 
-#include "compile/flatten/look_table.hpp"
+#include "compile/flatten/appearance_table.hpp"
 #include "compile/hash.hpp"
-#include "compile/looks.hpp"
+#include "compile/appearance.hpp"
 #include "render/model_impl.hpp"
 #include "scene/edit_scene.hpp"
 #include "scene/faults/finding_list.hpp"
@@ -30,7 +30,7 @@ struct Edit::Impl {
     std::vector<std::string>& rendered() { return source.objects.empty() ? changed().top : source.objects; }
     void add(Look look);
     void check_values() const;
-    bool changes_tables_alone(const LookTable& table) const;
+    bool changes_tables_alone(const AppearanceTable& table) const;
     ModelSource next() const;
 };
 
@@ -69,7 +69,7 @@ std::vector<Look> joined(std::vector<Look> all, const std::vector<Look>& later) 
 }
 
 /// Throws Error (usage) for an appearance that concerns none of the regions.
-void check_paths(const std::vector<Look>& looks, const LookTable& table, const std::vector<RegionInfo>& regions) {
+void check_paths(const std::vector<Look>& looks, const AppearanceTable& table, const std::vector<RegionInfo>& regions) {
     std::vector<bool> used(looks.size());
     for (const RegionInfo& region : regions)
         for (const std::uint32_t i : table.find(region.path)) used[i] = true;
@@ -84,12 +84,13 @@ void check_paths(const std::vector<Look>& looks, const LookTable& table, const s
 }
 
 /// Returns the scene with the appearances of `source` and `table`, and the same solids and regions.
-CompiledScene repainted(const CompiledScene& before, const ModelSource& source, const LookTable& table) {
+CompiledScene repainted(const CompiledScene& before, const ModelSource& source, const AppearanceTable& table) {
     CompiledScene made = before;
     for (RegionInfo& region : made.region_info.own()) table.apply(region);
     std::vector<Warning> known;  // reported when the scene was compiled
-    static_cast<Looks&>(made) = looks_of({source.lights, source.ambient, source.background}, made.region_info.get(),
-                                         made.region_lights, made.display_shading, known);
+    static_cast<Appearance&>(made) =
+        appearance_of({source.lights, source.ambient, source.background}, made.region_info.get(), made.region_lights,
+                      made.display_shading, known);
     made.hash = hash_of(made);
     return made;
 }
@@ -138,7 +139,7 @@ Edit& Edit::set_background(const Vec3& color) {
 
 Edit& Edit::set_matrix(const std::string& path, const Matrix& matrix, Share share) {
     const FloatingPoint own;
-    set_leg_matrix(impl_->changed(), impl_->rendered(), path, matrix, share == Share::alone);
+    set_member_matrix(impl_->changed(), impl_->rendered(), path, matrix, share == Share::alone);
     return *this;
 }
 
@@ -159,7 +160,7 @@ Edit& Edit::add(Object object, bool top) {
 
 Edit& Edit::add(const std::string& combination, Operator op, const std::string& object, const Matrix& matrix) {
     const FloatingPoint own;
-    add_leg(impl_->changed(), combination, op, object, matrix);
+    add_member(impl_->changed(), combination, op, object, matrix);
     return *this;
 }
 
@@ -169,7 +170,7 @@ Edit& Edit::remove(const std::string& path) {
     const std::string whole = normal(path);
     const auto root = std::ranges::find_if(rendered, [&](const std::string& name) { return normal(name) == whole; });
     if (root == rendered.end()) {
-        remove_leg(impl_->changed(), path);
+        remove_member(impl_->changed(), path);
         return *this;
     }
     if (rendered.size() == 1) throw Error(Status::usage, "'" + path + "' is all that is rendered");
@@ -180,7 +181,7 @@ Edit& Edit::remove(const std::string& path) {
 /// Throws Error (scene) for colours and other values that a scene must not have.
 void Edit::Impl::check_values() const {
     Scene values;
-    source.put_looks(values);
+    source.put_appearance(values);
     values.looks = looks;  // the others are valid
     FindingList findings;
     check_settings(values, [&](const Place& place, const std::string& message, const std::string& suggestion) {
@@ -190,7 +191,7 @@ void Edit::Impl::check_values() const {
 }
 
 /// Whether only tables change. A region that begins or ceases to emit light may get another number.
-bool Edit::Impl::changes_tables_alone(const LookTable& table) const {
+bool Edit::Impl::changes_tables_alone(const AppearanceTable& table) const {
     if (scene) return false;
     const auto is_finish = [&](std::uint32_t i) { return looks[i].finish.has_value(); };
     if (std::ranges::any_of(looks, [](const Look& look) { return look.finish && look.finish->light; })) return false;
@@ -210,7 +211,7 @@ Model Edit::commit() const {
     const Impl& edit = *impl_;
     const AllowedThreads allowed(edit.source.settings.threads);
     edit.check_values();
-    const LookTable table(edit.looks);
+    const AppearanceTable table(edit.looks);
     ModelSource source = edit.next();
     std::shared_ptr<const Model::Impl> made;
     if (edit.changes_tables_alone(table)) {
@@ -218,7 +219,7 @@ Model Edit::commit() const {
         made = std::make_shared<Model::Impl>(std::move(source), std::move(painted), *edit.before);
     } else {
         Scene whole = edit.scene ? *edit.scene : *source.scene;
-        source.put_looks(whole);
+        source.put_appearance(whole);
         source.scene = std::make_shared<const Scene>(std::move(whole));
         made = std::make_shared<Model::Impl>(std::move(source));
     }

@@ -9,31 +9,31 @@
 namespace csgrt {
 
 void find_partitions(const RayList& list, Partitions& answer, Fields fields, const TraceList& trace) {
-    RowSink sink(answer, fields, list.size());
-    trace(list, sink, fields.hidden ? Claims::all : Claims::shown);
+    RowCollector receiver(answer, fields, list.size());
+    trace(list, receiver, fields.hidden ? ClaimingRegions::all : ClaimingRegions::shown);
     list.restore_lengths(answer);
 }
 
 void find_hits(const RayList& list, Hits& answer, Fields fields, const TraceList& trace) {
     answer.solid_ids.resize(0);
     answer.normals.resize(0);
-    HitSink sink({.regions = &answer.region_ids,
-                  .distances = &answer.t_hit,
-                  .solids = fields.solids ? &answer.solid_ids : nullptr,
-                  .normals = fields.normals ? &answer.normals : nullptr},
-                 list.size());
-    trace(list, sink, Claims::shown);
+    HitCollector receiver({.regions = &answer.region_ids,
+                           .distances = &answer.t_hit,
+                           .solids = fields.solids ? &answer.solid_ids : nullptr,
+                           .normals = fields.normals ? &answer.normals : nullptr},
+                          list.size());
+    trace(list, receiver, ClaimingRegions::shown);
     list.restore_lengths(answer.t_hit);
 }
 
 void find_occluded(const RayList& list, Array<std::uint8_t>& answer, const TraceList& trace) {
-    HitSink sink({.hits = &answer}, list.size());
-    trace(list, sink, Claims::shown);
+    HitCollector receiver({.hits = &answer}, list.size());
+    trace(list, receiver, ClaimingRegions::shown);
 }
 
 void find_regions(std::span<const Vec3> points, Array<std::int32_t>& answer, const TraceList& trace) {
-    HitSink sink({.regions = &answer}, points.size());
-    trace(RayList(points), sink, Claims::all);
+    HitCollector receiver({.regions = &answer}, points.size());
+    trace(RayList(points), receiver, ClaimingRegions::all);
 }
 
 // A ray goes along the pixels of a line.
@@ -47,8 +47,8 @@ void find_pixels(const Slice& slice, Array<std::int32_t>& answer, const TraceLis
                         .columns = 1,
                         .rows = slice.height};
     const RayList list(lines, {.all = {0, static_cast<double>(slice.width)}, .each = {}});
-    PixelSink sink(answer, static_cast<std::uint32_t>(slice.width), list.size());
-    trace(list, sink, slice.hidden ? Claims::all : Claims::shown);
+    PixelCollector receiver(answer, static_cast<std::uint32_t>(slice.width), list.size());
+    trace(list, receiver, slice.hidden ? ClaimingRegions::all : ClaimingRegions::shown);
 }
 
 }  // namespace csgrt

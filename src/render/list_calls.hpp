@@ -8,15 +8,15 @@
 #include <csgrt/partitions.hpp>
 
 #include "compile/lists/ray_list.hpp"
-#include "compile/lists/sink.hpp"
+#include "compile/lists/row_receivers.hpp"
 
 namespace csgrt {
 
 /// The regions that claim partitions: all; those that pictures show; or only the ghosts.
-enum class Claims { all, shown, ghosts };
+enum class ClaimingRegions { all, shown, ghosts };
 
 /// Traces a list and puts its rows into the receiver.
-using TraceList = std::function<void(const RayList&, RowTaker&, Claims)>;
+using TraceList = std::function<void(const RayList&, RowReceiver&, ClaimingRegions)>;
 
 void find_partitions(const RayList& list, Partitions& answer, Fields fields, const TraceList& trace);
 void find_hits(const RayList& list, Hits& answer, Fields fields, const TraceList& trace);

@@ -110,7 +110,7 @@ double Model::tolerance() const { return impl_->tolerance; }
 
 Scene Model::scene() const {
     Scene scene = *impl_->source.scene;
-    impl_->source.put_looks(scene);
+    impl_->source.put_appearance(scene);
     return scene;
 }
 
@@ -133,17 +133,17 @@ const Reference& CallerTracer::reference() const {
     return *reference_;
 }
 
-void CallerTracer::trace(const RayList& list, RowTaker& taker) const {
+void CallerTracer::trace(const RayList& list, RowReceiver& receiver) const {
     kernel::Frame frame = prepare_rays(scene_, static_cast<std::uint32_t>(list.size()), tolerance_).frame;
-    frame.first_row = taker.first_row();
+    frame.first_row = receiver.first_row();
     if (list.is_grid()) list.put_camera(frame);
     list.put_planes(frame);
     if (const NativeTracer* const tracer = native()) {
         PipelineCounts counts;
-        tracer->trace(frame, list, 0, list.size(), nullptr, taker, counts);
+        tracer->trace(frame, list, 0, list.size(), nullptr, receiver, counts);
     } else {
         ReferenceCounts counts;
-        reference().trace(frame, list, taker, nullptr, counts);
+        reference().trace(frame, list, receiver, nullptr, counts);
     }
 }
 
@@ -163,15 +163,15 @@ Pick Model::pick(const View& view, int column, int row) const {
     const std::uint32_t seen_end = impl_->scene.rank_ends[RANK_AIR];  // behind it: lights that no picture shows
     impl_->call([&](const TraceList& trace) {
         RayList list(pick.ray, {.all = whole_line});
-        const auto along = [&](Claims claims) {
+        const auto along = [&](ClaimingRegions claims) {
             Partitions all;
-            RowSink sink(all, all_fields, 1);
-            trace(list, sink, claims);
+            RowCollector receiver(all, all_fields, 1);
+            trace(list, receiver, claims);
             return std::move(along_rays(all).front());
         };
-        pick.along = along(Claims::all);
+        pick.along = along(ClaimingRegions::all);
         if (range.in_plane) list.cut_by({frame.clip, frame.clip_count});
-        const RayPartitions shown = impl_->some_shown || range.in_plane ? along(Claims::shown) : pick.along;
+        const RayPartitions shown = impl_->some_shown || range.in_plane ? along(ClaimingRegions::shown) : pick.along;
         for (const Partition& p : shown.partitions) {
             if (p.region >= seen_end || !(p.out > range.after)) continue;
             if (!(p.in < range.before && range.after < range.before)) break;

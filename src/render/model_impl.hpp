@@ -25,7 +25,7 @@ public:
     /// Refers to the scene, which must outlive it. `tolerance`: millimetres.
     CallerTracer(const CompiledScene& scene, double tolerance) : scene_(scene), tolerance_(tolerance) {}
     /// Puts the rows of a list.
-    void trace(const RayList& list, RowTaker& taker) const;
+    void trace(const RayList& list, RowReceiver& receiver) const;
 
 private:
     /// The tracer; null: this processor has none.
@@ -51,7 +51,7 @@ struct ModelSource {
     Settings settings;
 
     /// Copies the members below into a scene.
-    void put_looks(Scene& to) const {
+    void put_appearance(Scene& to) const {
         to.looks = looks;
         to.lights = lights;
         to.ambient = ambient;
@@ -72,8 +72,10 @@ struct Model::Impl {
     Impl(ModelSource of, CompiledScene made, const Impl& before);
 
     /// The scene in which the regions of `which` claim.
-    const CompiledScene& of(Claims which) const {
-        return which == Claims::shown && some_shown ? *some_shown : which == Claims::ghosts ? *some_ghosts : scene;
+    const CompiledScene& of(ClaimingRegions which) const {
+        return which == ClaimingRegions::shown && some_shown ? *some_shown
+               : which == ClaimingRegions::ghosts            ? *some_ghosts
+                                                             : scene;
     }
     bool has_ghosts() const { return some_ghosts.has_value(); }
 
@@ -82,8 +84,8 @@ struct Model::Impl {
     void call(const Work& work) const {
         const FloatingPoint own;
         const AllowedThreads alone(1);
-        work([this](const RayList& list, RowTaker& taker, Claims claims) {
-            (claims == Claims::shown && some_shown ? *shown_ : *all_).trace(list, taker);
+        work([this](const RayList& list, RowReceiver& receiver, ClaimingRegions claims) {
+            (claims == ClaimingRegions::shown && some_shown ? *shown_ : *all_).trace(list, receiver);
         });
     }
 

@@ -176,7 +176,7 @@ void Renderer::Impl::add_ghosts(const View& view, const PreparedFrame& prepared,
         seen.assign(shown.channels[0].begin(), shown.channels[0].end());
     }
     const std::span<const float> distances = seen.empty() ? image.channel("Z") : std::span<const float>(seen);
-    prepare(prepared.frame.every_partition, Claims::ghosts);
+    prepare(prepared.frame.every_partition, ClaimingRegions::ghosts);
     const Image& passed = draw_beside(view, {}, channel::distance | channel::ids, watch);
     const std::span<const std::uint32_t> regions = passed.ids("region");
     for (std::size_t i = 0; i < ghosts.size(); ++i)
@@ -197,10 +197,10 @@ void Renderer::Impl::render(const View& view, Framebuffer& framebuffer, const st
     };
     if (framebuffer.covered_.empty()) {
         std::future<void> fitting = start_async(fit_picture);
-        prepare(every_partition, Claims::shown);  // a compiler leaves most processors idle
+        prepare(every_partition, ClaimingRegions::shown);  // a compiler leaves most processors idle
         fitting.get();
     } else {
-        prepare(every_partition, Claims::shown);
+        prepare(every_partition, ClaimingRegions::shown);
         fit_picture();
     }
     bool is_whole = true;
@@ -219,7 +219,7 @@ void Renderer::Impl::render(const View& view, Framebuffer& framebuffer, const st
     image.attributes["csgrt:precision"] = statistics.precision;
     image.attributes["csgrt:method"] = statistics.method;
     image.attributes["csgrt:shading"] = settings.display_shading ? "display values" : "linear light";
-    image.attributes["csgrt:scene_hash"] = hexadecimal(model.impl_->of(Claims::shown).hash);
+    image.attributes["csgrt:scene_hash"] = hexadecimal(model.impl_->of(ClaimingRegions::shown).hash);
     if (!scene().warnings.empty()) image.attributes["csgrt:warnings"] = warnings_attribute(scene().warnings);
     describe_camera(prepared, image);
     end_call(start);

@@ -20,9 +20,9 @@ void ReferenceBackend::render(const PreparedFrame& frame, const FrameMemory& mem
     });
 }
 
-void ReferenceBackend::trace(const kernel::Frame& frame, const RayList& rays, RowTaker& sink, Watch& watch) {
+void ReferenceBackend::trace(const kernel::Frame& frame, const RayList& rays, RowReceiver& receiver, Watch& watch) {
     counts_ = {};
-    reference_->trace(frame, rays, sink, &watch, counts_);
+    reference_->trace(frame, rays, receiver, &watch, counts_);
 }
 
 void ReferenceBackend::report(Statistics& statistics) const {

@@ -19,7 +19,7 @@ public:
 
     void prepare(bool) override {}
     void render(const PreparedFrame& frame, const FrameMemory& memory, Watch& watch) override;
-    void trace(const kernel::Frame& frame, const RayList& rays, RowTaker& sink, Watch& watch) override;
+    void trace(const kernel::Frame& frame, const RayList& rays, RowReceiver& receiver, Watch& watch) override;
     std::string name() const override { return "reference"; }
     void report(Statistics& statistics) const override;
     std::string method(bool) const override { return "every solid near the ray, unique lists"; }

@@ -55,15 +55,15 @@ Renderer::Renderer(Model model, const Settings& settings) : impl_(new Impl(std::
 /// Sets the model of this call and the next ones.
 void Renderer::Impl::use_model(bool is_reference) {
     in_use = {};
-    used(Claims::all, is_reference);
+    used(ClaimingRegions::all, is_reference);
     statistics.tolerance = tolerance = tolerance_of(scene(), settings);
     statistics.ms.compile = model.impl_->compile_ms;
 }
 
-std::shared_ptr<const ModelInUse> Renderer::Impl::used(Claims claims, bool is_reference) {
+std::shared_ptr<const ModelInUse> Renderer::Impl::used(ClaimingRegions claims, bool is_reference) {
     const std::shared_ptr<const Model::Impl>& compiled = model.impl_;
     const CompiledScene& scene = compiled->of(claims);
-    if (&scene == &compiled->scene) claims = Claims::all;
+    if (&scene == &compiled->scene) claims = ClaimingRegions::all;
     std::shared_ptr<const ModelInUse>& use = in_use[static_cast<std::size_t>(claims)];
     if (!use)
         use = std::make_shared<ModelInUse>(ModelInUse{
@@ -101,7 +101,7 @@ void Renderer::set_model(Model model) {
 
 void Renderer::Impl::use_reference() {
     use_model(true);
-    backend = std::make_unique<ReferenceBackend>(used(Claims::all, true));
+    backend = std::make_unique<ReferenceBackend>(used(ClaimingRegions::all, true));
 }
 
 // If there is no device, and nobody named one, the reference draws, with a warning.
@@ -113,7 +113,8 @@ void Renderer::Impl::set_up_devices() {
     if (!plan.first.empty()) {
         const bool can_do_without = plan.is_default && kernels_for(settings) == Kernels::any;
         try {
-            backend = std::make_unique<DeviceBackend>(std::move(plan), used(Claims::all, false), settings, search_ms);
+            backend = std::make_unique<DeviceBackend>(std::move(plan), used(ClaimingRegions::all, false), settings,
+                                                      search_ms);
             return;
         } catch (const Error& error) {
             if (!can_do_without || error.status() == Status::out_of_memory) throw;
@@ -144,7 +145,7 @@ void Renderer::Impl::start_call(std::uint64_t rays, bool every_partition, int wi
     statistics = std::move(fresh);
 }
 
-void Renderer::Impl::prepare(bool every_partition, Claims claims) {
+void Renderer::Impl::prepare(bool every_partition, ClaimingRegions claims) {
     backend->set_model(used(claims, backend->is_reference()));
     backend->prepare(every_partition);
     statistics.device = backend->name();
@@ -177,7 +178,9 @@ void Renderer::Impl::call(const Work& work, std::uint64_t all) {
     Watch::over(own.of_host(settings.progress), [&](Watch& watch) {
         take_next();
         if (all > 0) watch.begin_all(all);
-        work([&](const RayList& list, RowTaker& taker, Claims claims) { trace(list, taker, claims, watch); });
+        work([&](const RayList& list, RowReceiver& receiver, ClaimingRegions claims) {
+            trace(list, receiver, claims, watch);
+        });
     });
 }
 
@@ -226,15 +229,15 @@ void Renderer::slice(const Slice& slice, Array<std::int32_t>& answer) {
     impl().call([&](const TraceList& trace) { find_pixels(slice, answer, trace); });
 }
 
-void Renderer::Impl::trace(const RayList& list, RowTaker& taker, Claims claims, Watch& watch) {
+void Renderer::Impl::trace(const RayList& list, RowReceiver& receiver, ClaimingRegions claims, Watch& watch) {
     const auto start = Clock::now();
     kernel::Frame frame = prepare_rays(scene(), static_cast<std::uint32_t>(list.size()), tolerance).frame;
-    frame.first_row = taker.first_row();
+    frame.first_row = receiver.first_row();
     if (list.is_grid()) list.put_camera(frame);
     start_call(list.size(), true, 0, 0);
     prepare(true, claims);
-    backend->trace(frame, list, taker, watch);
-    backend->check(frame, list, taker, watch);
+    backend->trace(frame, list, receiver, watch);
+    backend->check(frame, list, receiver, watch);
     end_call(start);
 }
 

@@ -24,7 +24,7 @@ struct Renderer::Impl {
     bool uses_drivers = false;
     Model model;                                              ///< of the current call; another may be next
     double tolerance = 0;                                     ///< as kernels get it, in millimetres
-    std::array<std::shared_ptr<const ModelInUse>, 3> in_use;  ///< by Claims; null: not needed yet
+    std::array<std::shared_ptr<const ModelInUse>, 3> in_use;  ///< by ClaimingRegions; null: not needed yet
     std::unique_ptr<Backend> backend;
     std::vector<Warning> device_warnings;
     Statistics statistics;
@@ -39,12 +39,12 @@ struct Renderer::Impl {
     const CompiledScene& scene() const { return model.impl_->scene; }
     void use_model(bool is_reference);
     void take_next();
-    std::shared_ptr<const ModelInUse> used(Claims claims, bool is_reference);
+    std::shared_ptr<const ModelInUse> used(ClaimingRegions claims, bool is_reference);
     void warn(std::string reason);
     void set_up_devices();
     void use_reference();
     void start_call(std::uint64_t rays, bool every_partition, int width, int height);
-    void prepare(bool every_partition, Claims claims);
+    void prepare(bool every_partition, ClaimingRegions claims);
     void end_call(Clock::time_point start);
 
     void fit(Framebuffer& framebuffer, const kernel::Frame& frame, std::uint32_t channels, const Watch& watch) const;
@@ -56,7 +56,7 @@ struct Renderer::Impl {
     void add_ghosts(const View& view, const PreparedFrame& prepared, Framebuffer& framebuffer, Watch& watch);
     std::uint32_t word_of(const float (&color)[4]) const;
     void render(const View& view, Framebuffer& framebuffer, const std::function<bool(int)>& coarse, Watch& watch);
-    void trace(const RayList& list, RowTaker& taker, Claims claims, Watch& watch);
+    void trace(const RayList& list, RowReceiver& receiver, ClaimingRegions claims, Watch& watch);
     /// Calls work(trace) as a call of the host's. `all`: the number of rays of the several lists that it traces; 0: it
     /// traces one.
     template <class Work>

@@ -39,7 +39,7 @@ std::vector<std::uint32_t> SpotCheck::rays_of(const std::vector<RayBatch>& batch
     return rays;
 }
 
-void SpotCheck::look_at(const CompiledScene& scene, const PreparedFrame& frame, const FrameMemory& memory,
+void SpotCheck::compare(const CompiledScene& scene, const PreparedFrame& frame, const FrameMemory& memory,
                         const std::vector<RayBatch>& batches, const std::string& device, Watch& watch) {
     std::vector<std::uint32_t> pixels;
     for (const std::uint32_t ray : rays_of(batches))
@@ -59,18 +59,18 @@ void SpotCheck::look_at(const CompiledScene& scene, const PreparedFrame& frame, 
         }
 }
 
-void SpotCheck::look_at(const CompiledScene& scene, const kernel::Frame& frame, const RayList& rays,
-                        const RowTaker& taker, const std::vector<RayBatch>& batches, const std::string& device,
+void SpotCheck::compare(const CompiledScene& scene, const kernel::Frame& frame, const RayList& rays,
+                        const RowReceiver& given, const std::vector<RayBatch>& batches, const std::string& device,
                         Watch& watch) {
     const std::vector<std::uint32_t> numbers = rays_of(batches);
     if (numbers.empty()) return;
     const RayList some = rays.some(numbers);
     ReferenceCounts counts;
     Partitions right;
-    RowSink sink(right, taker.fields(), numbers.size());
-    reference(scene).trace(frame, some, sink, &watch, counts);
+    RowCollector expected(right, given.fields(), numbers.size());
+    reference(scene).trace(frame, some, expected, &watch, counts);
     for (std::size_t i = 0; i < numbers.size(); ++i)
-        if (!taker.has(numbers[i], right, i))
+        if (!given.has(numbers[i], right, i))
             fail(device, "the partitions of ray " + std::to_string(numbers[i]) + " are not the reference's");
 }
 

@@ -22,9 +22,9 @@ public:
 
     /// Throws Error (device_fault) that names the first pixel and channel, or the first ray, whose bits differ;
     /// (interrupted) if `watch` says so. `batches`: those of a call that `device` has answered.
-    void look_at(const CompiledScene& scene, const PreparedFrame& frame, const FrameMemory& memory,
+    void compare(const CompiledScene& scene, const PreparedFrame& frame, const FrameMemory& memory,
                  const std::vector<RayBatch>& batches, const std::string& device, Watch& watch);
-    void look_at(const CompiledScene& scene, const kernel::Frame& frame, const RayList& rays, const RowTaker& taker,
+    void compare(const CompiledScene& scene, const kernel::Frame& frame, const RayList& rays, const RowReceiver& given,
                  const std::vector<RayBatch>& batches, const std::string& device, Watch& watch);
 
 private:

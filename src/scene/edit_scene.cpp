@@ -95,9 +95,9 @@ private:
 
     /// Makes a member name another object under the member's old name.
     void lead_to(std::uint32_t user, std::uint32_t node, std::uint32_t object) {
-        TreeNode& leg = tree_of(scene_, user).nodes[node];
-        if (leg.name.empty()) leg.name = names_.leg_name(original(user), node);
-        leg.object = name_of(scene_.objects[object]);
+        TreeNode& member = tree_of(scene_, user).nodes[node];
+        if (member.name.empty()) member.name = names_.member_name(original(user), node);
+        member.object = name_of(scene_.objects[object]);
     }
 
     Scene& scene_;
@@ -141,26 +141,26 @@ void remove_leaf(Tree& tree, std::uint32_t leaf) {
 
 }  // namespace
 
-void set_leg_matrix(Scene& scene, const std::vector<std::string>& rendered, const std::string& path,
-                    const Matrix& matrix, bool alone) {
+void set_member_matrix(Scene& scene, const std::vector<std::string>& rendered, const std::string& path,
+                       const Matrix& matrix, bool alone) {
     const Names names(scene);
     std::vector<ObjectPath::Step> steps = follow(scene, names, path, 2).steps;
     if (alone) Unsharer(scene, names, rendered).unshare(steps);
     tree_of(scene, steps[steps.size() - 2].object).nodes[steps.back().node].matrix = matrix;
 }
 
-void remove_leg(Scene& scene, const std::string& path) {
+void remove_member(Scene& scene, const std::string& path) {
     const Names names(scene);
     const std::vector<ObjectPath::Step> steps = follow(scene, names, path, 2).steps;
     const std::uint32_t parent = steps[steps.size() - 2].object, leaf = steps.back().node;
     Tree& tree = tree_of(scene, parent);
     for (std::uint32_t i = 0; i < tree.nodes.size(); ++i)  // numbered names stay
-        if (tree.nodes[i].op == Operator::leaf && names.leg_name(parent, i) != tree.nodes[i].object)
-            tree.nodes[i].name = names.leg_name(parent, i);
+        if (tree.nodes[i].op == Operator::leaf && names.member_name(parent, i) != tree.nodes[i].object)
+            tree.nodes[i].name = names.member_name(parent, i);
     remove_leaf(tree, leaf);
 }
 
-void add_leg(Scene& scene, const std::string& path, Operator op, const std::string& object, const Matrix& matrix) {
+void add_member(Scene& scene, const std::string& path, Operator op, const std::string& object, const Matrix& matrix) {
     const Names names(scene);
     const std::uint32_t parent = follow(scene, names, path).object();
     if (names.is_solid(parent)) refuse("'" + path + "' is a solid: it has no legs");
@@ -170,12 +170,12 @@ void add_leg(Scene& scene, const std::string& path, Operator op, const std::stri
     std::vector<TreeNode>& nodes = tree_of(scene, parent).nodes;
     if (nodes.empty() && op != Operator::union_ && op != Operator::xor_)
         refuse("'" + path + "' is empty: a leg can be united with it alone");
-    TreeNode leg{.op = Operator::leaf, .object = object, .matrix = matrix};
+    TreeNode member{.op = Operator::leaf, .object = object, .matrix = matrix};
     if (!nodes.empty() && nodes.back().op == op) {
         ++nodes.back().arity;
-        nodes.insert(nodes.end() - 1, std::move(leg));
+        nodes.insert(nodes.end() - 1, std::move(member));
     } else {
-        nodes.push_back(std::move(leg));
+        nodes.push_back(std::move(member));
         if (nodes.size() > 1) nodes.push_back({.op = op, .arity = 2});
     }
 }

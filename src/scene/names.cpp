@@ -45,8 +45,8 @@ std::uint32_t Names::find(std::string_view name, std::uint32_t hash) const {
 }
 
 /// Finds the members' names in a tree; most trees need none. `sorted`: memory that is used again.
-void Names::name_legs(std::uint32_t object, const std::vector<TreeNode>& nodes, std::vector<std::uint32_t>& sorted,
-                      LegNames& found) const {
+void Names::name_members(std::uint32_t object, const std::vector<TreeNode>& nodes, std::vector<std::uint32_t>& sorted,
+                         MemberNames& found) const {
     const std::uint32_t* const own = children_.data() + first_child_[object];
     bool is_simple = true;
     sorted.clear();
@@ -85,10 +85,10 @@ Names::Names(const Scene& scene) : scene_(scene), first_child_(scene.objects.siz
     reserve_cleared(slots_, slots);
     slots_.assign(slots, Slot{0, none});
     std::vector<std::uint32_t> hashes(count);
-    std::atomic<bool> is_doubtful = false;
+    std::atomic<bool> is_ambiguous = false;
     for_chunks(count, chunk, 0, [&](std::size_t first, std::size_t last, std::size_t) {
         for (std::size_t i = first; i < last; ++i) {
-            if (name_of(scene.objects[i]).find_first_of("/@") != std::string::npos) is_doubtful = true;
+            if (name_of(scene.objects[i]).find_first_of("/@") != std::string::npos) is_ambiguous = true;
             hashes[i] = hash_of(name_of(scene.objects[i]));
             const auto* combination = std::get_if<Combination>(&scene.objects[i]);
             first_child_[i] = combination == nullptr ? 0 : combination->tree.nodes.size();
@@ -117,7 +117,7 @@ Names::Names(const Scene& scene) : scene_(scene), first_child_(scene.objects.siz
     std::mutex mutex;
     for_chunks(count, chunk, 0, [&](std::size_t first, std::size_t last, std::size_t) {
         std::vector<std::uint32_t> sorted;
-        LegNames legs;
+        MemberNames members;
         for (std::size_t i = first; i < last; ++i) {
             if (kinds_[i] >= Kind::solid) continue;
             const std::vector<TreeNode>& nodes = std::get<Combination>(scene.objects[i]).tree.nodes;
@@ -135,14 +135,14 @@ Names::Names(const Scene& scene) : scene_(scene), first_child_(scene.objects.siz
             }
             for (std::size_t k = 0; k < nodes.size(); ++k)
                 own[k] = nodes[k].op == Operator::leaf ? find(nodes[k].object, own[k]) : operation;
-            name_legs(static_cast<std::uint32_t>(i), nodes, sorted, legs);
+            name_members(static_cast<std::uint32_t>(i), nodes, sorted, members);
         }
         const std::lock_guard lock(mutex);
-        leg_names_.merge(legs);
+        member_names_.merge(members);
     });
-    for (const auto& [leg, name] : leg_names_)
-        if (!node(leg.first, leg.second).name.empty()) is_doubtful = true;
-    has_doubtful_names_ = is_doubtful;
+    for (const auto& [member, name] : member_names_)
+        if (!node(member.first, member.second).name.empty()) is_ambiguous = true;
+    has_ambiguous_names_ = is_ambiguous;
 }
 
 std::vector<std::string> Names::top_objects() const {

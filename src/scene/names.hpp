@@ -32,13 +32,13 @@ public:
         return std::get<Combination>(scene_.objects[object]).tree.nodes[node];
     }
     /// The name of a leaf in paths (TreeNode::name): no two leaves of a tree have the same.
-    const std::string& leg_name(std::uint32_t object, std::size_t node) const {
-        const auto found = leg_names_.find(std::pair(object, static_cast<std::uint32_t>(node)));
-        return found != leg_names_.end() ? found->second : this->node(object, node).object;
+    const std::string& member_name(std::uint32_t object, std::size_t node) const {
+        const auto found = member_names_.find(std::pair(object, static_cast<std::uint32_t>(node)));
+        return found != member_names_.end() ? found->second : this->node(object, node).object;
     }
     /// Whether two paths may be the same though their members differ: a name holds a '/', or an end that looks like a
     /// number.
-    bool has_doubtful_names() const { return has_doubtful_names_; }
+    bool has_ambiguous_names() const { return has_ambiguous_names_; }
     /// The children of all nodes of a combination's tree. They are walked several times and take far less memory than
     /// the objects. `operation`: not a leaf; `left_out`: a leaf that is the empty set. Empty for a solid.
     std::span<const std::uint32_t> children(std::uint32_t object) const {
@@ -61,11 +61,11 @@ private:
         std::uint32_t hash, object;  // none: empty
     };
 
-    using LegNames = std::map<std::pair<std::uint32_t, std::uint32_t>, std::string>;
+    using MemberNames = std::map<std::pair<std::uint32_t, std::uint32_t>, std::string>;
 
     static std::uint32_t hash_of(std::string_view name);
-    void name_legs(std::uint32_t object, const std::vector<TreeNode>& nodes, std::vector<std::uint32_t>& sorted,
-                   LegNames& found) const;
+    void name_members(std::uint32_t object, const std::vector<TreeNode>& nodes, std::vector<std::uint32_t>& sorted,
+                      MemberNames& found) const;
     std::uint32_t find(std::string_view name, std::uint32_t hash) const;
 
     const Scene& scene_;
@@ -74,8 +74,8 @@ private:
     std::vector<std::uint64_t> first_child_;  // one an object, and one more: the first of its tree's nodes in
                                               // `children_`
     std::vector<Kind> kinds_;                 // one an object
-    LegNames leg_names_;                      // of members whose names differ from their objects'
-    bool has_doubtful_names_ = false;
+    MemberNames member_names_;                // of members whose names differ from their objects'
+    bool has_ambiguous_names_ = false;
     std::vector<std::uint32_t> children_;
 };
 

@@ -94,7 +94,7 @@ private:
         const auto* combination = std::get_if<Combination>(&scene_.objects[from]);
         if (combination == nullptr)
             return fail("'" + above + "' is a solid; it has no member '" + std::string(part()) + "'", {});
-        const auto find_leg = [&](const auto& is_called) {
+        const auto find_member = [&](const auto& is_called) {
             return longest([&](std::string_view name) -> std::optional<std::uint32_t> {
                 const std::vector<TreeNode>& nodes = combination->tree.nodes;
                 for (std::uint32_t i = 0; i < nodes.size(); ++i)
@@ -102,9 +102,10 @@ private:
                 return std::nullopt;
             });
         };
-        auto found = find_leg([&](std::uint32_t i, std::string_view name) { return names_.leg_name(from, i) == name; });
+        auto found =
+            find_member([&](std::uint32_t i, std::string_view name) { return names_.member_name(from, i) == name; });
         if (!found)
-            found = find_leg(
+            found = find_member(
                 [&](std::uint32_t i, std::string_view name) { return combination->tree.nodes[i].object == name; });
         if (!found) {
             const std::vector<std::string_view> members = members_of(*combination);

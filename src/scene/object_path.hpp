@@ -24,7 +24,7 @@ struct ObjectPath {
 };
 
 /// Finds an object of the whole name, else the path that the parts between '/' give; a '/' at the front or the end has
-/// no effect. A part is the name of a member (Names::leg_name): of several members with one object, the object's own
+/// no effect. A part is the name of a member (Names::member_name): of several members with one object, the object's own
 /// name is that of the first.
 ObjectPath find_path(const Scene& scene, const Names& names, const std::string& text);
 

@@ -43,7 +43,7 @@ struct Row {
     }
     const Box& reach(const std::string& name) const {
         for (std::size_t i = 0; i < flat.instances.size(); ++i)
-            if (name_of(scene.objects[flat.instances[i].object]) == name) return clipped.reaches.at(i);
+            if (name_of(scene.objects[flat.instances[i].object]) == name) return clipped.ray_boxes.at(i);
         FAIL(name);
         return clipped.end;
     }
@@ -132,21 +132,21 @@ TEST_CASE("half-spaces: a tree that would grow too much stays") {
 TEST_CASE("a hierarchy without what half-spaces take away: all else stands in it, under the same numbers") {
     stress::Random random(5);
     for (int round = 0; round < 100; ++round) {
-        std::vector<Box> boxes{whole_space}, reaches{round % 2 ? whole_space : Box{{-2, -2, -2}, {0, 2, 2}}};
+        std::vector<Box> boxes{whole_space}, ray_boxes{round % 2 ? whole_space : Box{{-2, -2, -2}, {0, 2, 2}}};
         const std::uint32_t count = 1 + random.below(40), rate = 1 + random.below(4);
         for (std::uint32_t i = 0; i < count; ++i) {
             const Vec3 at = random.in_cube();
             boxes.push_back({at, {at.x + 0.1, at.y + 0.1, at.z + 0.1}});
-            reaches.push_back(random.below(rate) == 0 ? boxes.back() : empty_box);
+            ray_boxes.push_back(random.below(rate) == 0 ? boxes.back() : empty_box);
         }
-        const NumberedSpace all = space_of(boxes, boxes), some = space_of(boxes, reaches);
+        const NumberedSpace all = space_of(boxes, boxes), some = space_of(boxes, ray_boxes);
         CHECK(some.order == all.order);
         CHECK(some.space.radius == all.space.radius);
         CHECK(some.space.unbounded_count == (round % 2 ? 1u : 0u));
         const std::vector<bool> met = met_solids(some.space, boxes.size());
         const auto& nodes = some.space.nodes;
         for (std::size_t i = 0; i < boxes.size(); ++i) {
-            const Box& box = reaches[some.order[i]];
+            const Box& box = ray_boxes[some.order[i]];
             if (is_empty(box)) continue;
             CHECK(met[i]);
             if (i < some.space.unbounded_count) continue;

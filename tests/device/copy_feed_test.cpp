@@ -59,7 +59,7 @@ TEST_CASE("a feed makes all copies, in pieces, beside other commands of the devi
         add({copy(1300, 1000, 2, 17, 2000, 2'000'000), copy(3, 2, 3, 1, 10, 30),
              copy(32'768, 3, 64, 3, 32'768, 98'304)});
         for (const CopyFeed::Copy& wrong : {copy(5, 1, 1, 10'000'003, 5, 0), copy(2, 2, 2, 0, 2, 10'000'004),
-                                            copy(CopyFeed::piece / 2 + 1, 1, 2, 0, 2'000'000, 2'000'000)})
+                                            copy(CopyFeed::chunk / 2 + 1, 1, 2, 0, 2'000'000, 2'000'000)})
             CHECK_THROWS_AS(feed.add(buffer, {wrong}, is_registered), std::logic_error);
     }
     for (const std::shared_future<void>& all : done) {

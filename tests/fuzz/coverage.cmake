@@ -31,7 +31,7 @@ foreach(reader json asc g rays view)
         ASAN_OPTIONS=detect_leaks=0 ${WORK}/tests/csgrt_fuzz -runs=0 ${folders})
 endforeach()
 run(${llvm-profdata} merge -o ${WORK}/all.profdata ${profiles})
-set(writers "json/(write|schema)|json/(text|unit)[.]|/mended[.]|/picture_names[.]")
+set(writers "json/(write|schema)|json/(text|unit)[.]|/strict_scene[.]|/picture_names[.]")
 execute_process(COMMAND ${llvm-cov} report -instr-profile ${WORK}/all.profdata ${WORK}/tests/csgrt_fuzz
     -ignore-filename-regex=${writers} ${ROOT}/src/formats ${ROOT}/src/cli/text/rays.cpp OUTPUT_VARIABLE output)
 message("${output}")

@@ -5,7 +5,7 @@
 
 #include "compile/lists/along_rays.hpp"
 #include "compile/lists/ray_list.hpp"
-#include "compile/lists/sink.hpp"
+#include "compile/lists/row_receivers.hpp"
 #include "device/discovery.hpp"
 #include "native/driver.hpp"
 #include "pipeline/passes/partitions.hpp"
@@ -29,7 +29,7 @@ inline std::vector<kernel::RayRecord> records_of(const std::vector<Ray>& rays) {
 inline std::vector<RayPartitions> answers_of(const Reference& reference, const kernel::Frame& frame,
                                              const std::vector<Ray>& rays, ReferenceCounts& counts) {
     Partitions answer;
-    RowSink sink(answer, all_fields, rays.size());
+    RowCollector sink(answer, all_fields, rays.size());
     reference.trace(frame, RayList(rays, {.all = whole_line}), sink, nullptr, counts);
     return along_rays(answer);
 }
@@ -38,7 +38,7 @@ inline std::vector<RayPartitions> answers_of(const Reference& reference, const k
 inline std::vector<RayPartitions> answers_of(PartitionPass& pass, const PartitionPass::Input& input) {
     TimedKernels timed;
     Partitions answer;
-    RowSink sink(answer, all_fields, input.rays);
+    RowCollector sink(answer, all_fields, input.rays);
     if (!pass.write_rows(input, 0, all_fields, timed)) return {};
     wait_for(timed.back().second);
     pass.start_copy(input.rays);

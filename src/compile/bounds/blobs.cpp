@@ -62,7 +62,7 @@ public:
         for (const Metaball::Point& p : s.points) {
             all.push_back(static_cast<std::uint32_t>(all.size()));
             points_.push_back((wide(p.position) - frame_.center) / frame_.reach);
-            reaches_.push_back(reach_of(s, p) / frame_.reach);
+            reaches_.push_back(field_radius(s, p) / frame_.reach);
         }
         all_ = std::make_shared<const Points>(std::move(all));
     }
@@ -71,15 +71,15 @@ public:
         const Wide n(x, y, z);
         const long double width = std::fabs(x) + std::fabs(y) + std::fabs(z);
         constexpr long double smallest = 1.0L / 4096;
-        std::size_t looks = 0;  // points tested against a cube
+        std::size_t tests = 0;  // points tested against a cube
         std::priority_queue<Cube> cubes;
         cubes.push({Wide(0), 1, width, all_});
         while (!cubes.empty()) {
             const Cube cube = cubes.top();
-            if (cube.half < smallest || looks > most_looks) return cube.reach;
+            if (cube.half < smallest || tests > most_tests) return cube.reach;
             cubes.pop();
             const std::shared_ptr<const Points> near = near_to(cube);
-            looks += cube.near->size() + 8 * near->size();
+            tests += cube.near->size() + 8 * near->size();
             for (int corner = 0; corner < 8; ++corner) {
                 const long double half = 0.5L * cube.half;
                 const Wide at =
@@ -91,7 +91,7 @@ public:
     }
 
 private:
-    static constexpr std::size_t most_looks = 2'000'000;
+    static constexpr std::size_t most_tests = 2'000'000;
 
     /// The square of the distance of a point from a cube.
     long double away2(std::uint32_t point, const Wide& at, long double half) const {

@@ -18,8 +18,8 @@ struct SolidBoxes {
     /// regions, and with them BRL-CAD's view of a model, come from these boxes.
     Box brlcad;
 };
-/// Both boxes of a solid. `cuts` (a torus only; see Piece) keep the part inside them. `faces`: an arb's, if they are
-/// known.
+/// Both boxes of a solid. `cuts` (a torus only; see SolidPart) keep the part inside them. `faces`: an arb's, if they
+/// are known.
 SolidBoxes solid_boxes(const Shape& shape, const Matrix& matrix, const std::vector<Plane>& cuts = {},
                        const ArbFaces* faces = nullptr);
 

@@ -6,7 +6,7 @@
 #include "compile/solids/axis_frame.hpp"
 #include "compile/solids/cell_outline.hpp"
 #include "compile/bounds/tight_box.hpp"
-#include "scene/solids/sketch_reach.hpp"
+#include "scene/solids/sketch_extent.hpp"
 
 namespace csgrt {
 
@@ -39,11 +39,11 @@ long double greatest_cosine(long double angle, long double at) {
 }  // namespace
 
 Box Tight::operator()(const Extrude& s) const {
-    const std::vector<CurvePiece> pieces = closed_pieces(s.sketch);
+    const std::vector<BezierCurve> curves = closed_curves(s.sketch);
     return prism_box(transform_point(m, wide(s.v)), transform_direction(m, wide(s.a)),
                      transform_direction(m, wide(s.b)), transform_direction(m, wide(s.h)),
                      [&](long double a, long double b) {
-                         const auto [least, greatest] = reach_of(pieces, a, b);
+                         const auto [least, greatest] = extent_of(curves, a, b);
                          return Interval{least, greatest};
                      });
 }
@@ -67,14 +67,14 @@ Box Tight::operator()(const Ebm& s) const {
 
 /// The profile is farthest in each direction at the angle of the turn that is nearest to the direction.
 Box Tight::operator()(const Revolve& s) const {
-    const std::vector<CurvePiece> pieces = turned_pieces(s.sketch);
+    const std::vector<BezierCurve> curves = turned_curves(s.sketch);
     const AxisFrame axes = axis_frame(s);
     const Wide v = transform_point(m, wide(s.v)), x = transform_direction(m, axes.x);
     const Wide y = transform_direction(m, axes.y), z = transform_direction(m, axes.z);
     const auto farthest = [&](long double along_x, long double along_y, long double along_z) {
         const long double across = std::hypot(along_x, along_y);
         const long double lean = across * greatest_cosine(s.angle, std::atan2(along_y, along_x));
-        return reach_of(pieces, lean, along_z).second;
+        return extent_of(curves, lean, along_z).second;
     };
     Wide low(0), high(0);
     for (int i = 0; i < 3; ++i) {

@@ -53,7 +53,7 @@ private:
     };
 
     kernel::BvhNode node(const Range& range) const;
-    void in_one_piece(Task& task, std::vector<std::uint32_t>& right);
+    void build_whole(Task& task, std::vector<std::uint32_t>& right);
     void work();
     void join();
 
@@ -105,7 +105,7 @@ kernel::BvhNode Builder::node(const Range& range) const {
 
 /// Builds a range in depth-first order: a node comes before its children, the left child right after it. `right`:
 /// memory for the index of each node's right child; none: a leaf.
-void Builder::in_one_piece(Task& task, std::vector<std::uint32_t>& right) {
+void Builder::build_whole(Task& task, std::vector<std::uint32_t>& right) {
     struct Open {
         Range range;
         std::uint32_t parent;  // of a right child, whose index it needs
@@ -157,7 +157,7 @@ void Builder::work() {
                 left.place = task.place + 1;
                 right.place = task.place + 2 * static_cast<std::uint32_t>(left.range.size());
             } else {
-                in_one_piece(task, memory);
+                build_whole(task, memory);
             }
         } catch (...) {
             thrown = std::current_exception();  // out of memory

@@ -100,7 +100,7 @@ Nodes joined(const Nodes& left, const Nodes& right) {
 
 }  // namespace
 
-NumberedSpace space_of(const std::vector<Box>& boxes, const std::vector<Box>& reaches) {
+NumberedSpace space_of(const std::vector<Box>& boxes, const std::vector<Box>& ray_boxes) {
     NumberedSpace result;
     auto& [space, order] = result;
     const auto hierarchy_of = [&, &space = space](std::size_t count, const auto& box_of, std::uint32_t first) {
@@ -115,14 +115,14 @@ NumberedSpace space_of(const std::vector<Box>& boxes, const std::vector<Box>& re
     }
     std::vector<std::uint32_t> bounded, ending, nowhere;
     for (std::uint32_t i = 0; i < boxes.size(); ++i)
-        (is_finite(boxes[i])     ? bounded
-         : is_empty(reaches[i])  ? nowhere
-         : is_finite(reaches[i]) ? ending
-                                 : order)
+        (is_finite(boxes[i])       ? bounded
+         : is_empty(ray_boxes[i])  ? nowhere
+         : is_finite(ray_boxes[i]) ? ending
+                                   : order)
             .push_back(i);
     space.unbounded_count = static_cast<std::uint32_t>(order.size());
     const Hierarchy of_ending = hierarchy_of(
-        ending.size(), [&](std::size_t i) { return reaches[ending[i]]; }, space.unbounded_count);
+        ending.size(), [&](std::size_t i) { return ray_boxes[ending[i]]; }, space.unbounded_count);
     for (const std::uint32_t i : of_ending.order) order.push_back(ending[i]);
     order.insert(order.end(), nowhere.begin(), nowhere.end());
     const auto first = static_cast<std::uint32_t>(order.size());
@@ -131,7 +131,7 @@ NumberedSpace space_of(const std::vector<Box>& boxes, const std::vector<Box>& re
     std::vector<bool> wanted;
     for (const std::uint32_t i : of_bounded.order) {
         order.push_back(bounded[i]);
-        wanted.push_back(!is_empty(reaches[bounded[i]]));
+        wanted.push_back(!is_empty(ray_boxes[bounded[i]]));
     }
     space.nodes = joined(of_ending.nodes, pruned(std::move(of_bounded.nodes), first, wanted));
     return result;

@@ -14,9 +14,9 @@ struct NumberedSpace {
 };
 
 /// Numbers the solids and builds their hierarchy. `boxes`: one an instance, infinite for the unbounded; the sphere is
-/// around the others. `reaches`: as in Clipped. Solids that no ray has to meet are left out of the hierarchy, but keep
-/// their numbers.
-NumberedSpace space_of(const std::vector<Box>& boxes, const std::vector<Box>& reaches);
+/// around the others. `ray_boxes`: as in Clipped. Solids that no ray has to meet are left out of the hierarchy, but
+/// keep their numbers.
+NumberedSpace space_of(const std::vector<Box>& boxes, const std::vector<Box>& ray_boxes);
 
 /// The index of the first leaf with a solid that starts a term, or the number of nodes.
 std::uint32_t starting_node(const std::vector<kernel::BvhNode>& nodes, const std::vector<kernel::SolidRecord>& solids);

@@ -9,7 +9,7 @@
 
 #include "compile/flatten/flattener.hpp"
 #include "compile/flatten/instance_table.hpp"
-#include "compile/flatten/look_table.hpp"
+#include "compile/flatten/appearance_table.hpp"
 #include "compile/flatten/region_forest.hpp"
 #include "base/prefetch.hpp"
 #include "base/parallel.hpp"
@@ -88,14 +88,14 @@ void drop_unused(FlatScene& flat) {
 
 const Shape& shape_of(const Scene& scene, const FlatScene& flat, const Instance& instance) {
     const auto composite = flat.composites.find(instance.object);
-    if (composite != flat.composites.end()) return composite->second.pieces[instance.piece].shape;
+    if (composite != flat.composites.end()) return composite->second.parts[instance.piece].shape;
     return std::get<Solid>(scene.objects[instance.object]).shape;
 }
 
 const std::vector<Plane>& cuts_of(const FlatScene& flat, const Instance& instance) {
     static const std::vector<Plane> none;
     const auto composite = flat.composites.find(instance.object);
-    return composite != flat.composites.end() ? composite->second.pieces[instance.piece].cuts : none;
+    return composite != flat.composites.end() ? composite->second.parts[instance.piece].cuts : none;
 }
 
 namespace {
@@ -203,7 +203,7 @@ private:
 };
 
 /// An object that the caller named.
-struct Asked {
+struct NamedObject {
     const std::string& name;
     std::uint32_t object;
     std::unique_ptr<RegionForest> forest;  ///< null: an equal object was named before
@@ -212,7 +212,7 @@ struct Asked {
 
 /// The regions that a walk finds.
 struct Found {
-    std::vector<Asked> objects;  ///< in the caller's order
+    std::vector<NamedObject> objects;  ///< in the caller's order
     std::vector<Term> terms;
     double solids = 0;             ///< of all terms
     bool has_equal_paths = false;  ///< some paths may be equal
@@ -232,17 +232,18 @@ Found find_regions(const Source& source, const std::vector<std::string>& objects
         if (path.steps.empty()) throw Error(Status::scene, path.fault);
         std::string way;
         for (const ObjectPath::Step& step : path.steps) way += std::to_string(step.object) + "/";
-        Asked& asked = found.objects.emplace_back(Asked{object, path.object(), nullptr, found.terms.size()});
+        NamedObject& named =
+            found.objects.emplace_back(NamedObject{object, path.object(), nullptr, found.terms.size()});
         if (!seen.insert(std::move(way)).second) continue;
         check(object, found.solids + static_cast<double>(source.instances[path.object()]));
-        asked.forest = std::make_unique<RegionForest>(source, path, air);
-        found.solids += asked.forest->solids_in_terms();
+        named.forest = std::make_unique<RegionForest>(source, path, air);
+        found.solids += named.forest->solids_in_terms();
         check(object, found.solids);
-        asked.forest->for_each_term([&](std::uint32_t term) { found.terms.push_back({asked.forest.get(), term}); });
-        asked.end = found.terms.size();
+        named.forest->for_each_term([&](std::uint32_t term) { found.terms.push_back({named.forest.get(), term}); });
+        named.end = found.terms.size();
         // An object may lie inside another named object.
         const bool is_inside = path.steps.size() > 1 && objects.size() > 1;
-        found.has_equal_paths = found.has_equal_paths || asked.forest->has_equal_paths() || is_inside;
+        found.has_equal_paths = found.has_equal_paths || named.forest->has_equal_paths() || is_inside;
     }
     return found;
 }
@@ -263,9 +264,9 @@ std::vector<NoRegion> add_trees(const Source& source, const Found& found, FlatSc
         },
         [&](TermsPart& part) { joiner.add(part); });
     if (joiner.has_unused()) drop_unused(result);
-    if (source.names.has_doubtful_names() || found.has_equal_paths) tell_apart(result.regions);
+    if (source.names.has_ambiguous_names() || found.has_equal_paths) tell_apart(result.regions);
     if (const std::vector<Look>& looks = source.scene.looks; !looks.empty()) {
-        const LookTable table(looks);
+        const AppearanceTable table(looks);
         for_chunks(result.regions.size(), part_size, 0, [&](std::size_t first, std::size_t last, std::size_t) {
             for (std::size_t i = first; i < last; ++i) table.apply(result.regions[i].info);
         });

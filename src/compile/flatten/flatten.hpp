@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "compile/compiled_scene.hpp"
-#include "compile/flatten/pieces.hpp"
+#include "compile/flatten/solid_parts.hpp"
 #include "scene/names.hpp"
 
 namespace csgrt {
@@ -25,10 +25,10 @@ struct FlatRegion {
 };
 
 struct FlatScene {
-    std::vector<std::vector<Matrix>> matrices;             ///< of the instances
-    std::vector<Instance> instances;                       ///< all instances that trees use, in the order of first use
-    std::vector<FlatRegion> regions;                       ///< by rank; regions of one rank in the order of the walk
-    std::unordered_map<std::uint32_t, Pieces> composites;  ///< by object: the solids that are made of others
+    std::vector<std::vector<Matrix>> matrices;  ///< of the instances
+    std::vector<Instance> instances;            ///< all instances that trees use, in the order of first use
+    std::vector<FlatRegion> regions;            ///< by rank; regions of one rank in the order of the walk
+    std::unordered_map<std::uint32_t, SolidParts> composites;  ///< by object: the solids that are made of others
     std::vector<Warning> warnings;
 };
 

@@ -42,8 +42,8 @@ std::optional<Flattener::Level> Flattener::enter(std::uint32_t object, const Mat
     source_.references.check(++result_.references);
     const Names::Kind kind = source_.names.kind(object);
     if (kind < Names::Kind::solid) {
-        const auto known = hollow_.find(object);
-        if (known == hollow_.end()) return Level{matrix, leaves_};
+        const auto known = constants_.find(object);
+        if (known == constants_.end()) return Level{matrix, leaves_};
         push(known->second, known->second);
         return {};
     }
@@ -60,7 +60,7 @@ std::optional<Flattener::Level> Flattener::enter(std::uint32_t object, const Mat
     auto known = result_.composites.find(object);
     if (known == result_.composites.end()) {
         const Shape& shape = std::get<Solid>(source_.scene.objects[object]).shape;
-        known = result_.composites.emplace(object, pieces_of(shape)).first;
+        known = result_.composites.emplace(object, parts_of(shape)).first;
     }
     for (FlatTree::Node node : known->second.tree.nodes) {
         if (node.op == Operator::leaf) node.solid = instance_of(object, node.solid, matrix);
@@ -79,7 +79,7 @@ void Flattener::operate(const Open& parent, std::uint32_t node) {
 }
 
 void Flattener::leave(const Open& done) {
-    if (leaves_ == done.level.first_leaf) hollow_.emplace(done.object, values_.back());
+    if (leaves_ == done.level.first_leaf) constants_.emplace(done.object, values_.back());
 }
 
 void Flattener::push(Value value, Value outside) {

@@ -19,7 +19,7 @@ struct FlatPart {
     };
     std::vector<Leaf> leaves;  ///< in the order of the trees; one solid may have several
     std::vector<Matrix> matrices;
-    std::unordered_map<std::uint32_t, Pieces> composites;
+    std::unordered_map<std::uint32_t, SolidParts> composites;
     std::uint64_t references = 0;  ///< to combinations and solids
     bool has_unused = false;       ///< leaves that no tree holds any more
 };
@@ -66,7 +66,7 @@ private:
     std::vector<std::size_t> firsts_;
     std::vector<Value> values_, outsides_;
     Walk<Level> walk_;
-    std::unordered_map<std::uint32_t, Value> hollow_;  ///< combinations without solids, and the constant that each is
+    std::unordered_map<std::uint32_t, Value> constants_;  ///< of combinations without solids
     std::uint64_t leaves_ = 0;
 };
 

@@ -60,7 +60,7 @@ Attributes RegionForest::attributes_of(const RegionStart& start) const {
 std::optional<RegionForest::Level> RegionForest::visit(RegionStart start) {
     const std::uint32_t object = start.object;
     source_.references.check(paths_.size() + 1);
-    if (const auto known = hollow_.find(object); known != hollow_.end()) {
+    if (const auto known = constants_.find(object); known != constants_.end()) {
         operands_.push_back({known->second, none});
         return {};
     }
@@ -90,7 +90,7 @@ std::optional<RegionForest::Level> RegionForest::follow(const Open& parent, std:
 }
 
 void RegionForest::leave(const Open& done) {
-    if (starts_.size() == done.level.first_start) hollow_.emplace(done.object, operands_.back().value);
+    if (starts_.size() == done.level.first_start) constants_.emplace(done.object, operands_.back().value);
 }
 
 void RegionForest::operate(const Open& parent, std::uint32_t node) {
@@ -207,7 +207,7 @@ std::string RegionForest::path(std::uint32_t number) const {
     for (; number != none; number = paths_[number].above) {
         const PathStep& step = paths_[number];
         steps.push_back(step.above == none ? &name_of(source_.scene.objects[step.object])
-                                           : &source_.names.leg_name(paths_[step.above].object, step.node));
+                                           : &source_.names.member_name(paths_[step.above].object, step.node));
     }
     std::string text;
     for (auto step = steps.rbegin(); step != steps.rend(); ++step) text += "/" + **step;

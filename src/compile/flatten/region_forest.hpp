@@ -135,7 +135,7 @@ private:
 
     const Source& source_;
     bool air_;
-    std::unordered_map<std::uint32_t, Value> hollow_;  ///< combinations without starts, and the constant that each is
+    std::unordered_map<std::uint32_t, Value> constants_;  ///< of combinations without starts
     std::vector<Above> above_;
     std::vector<Operand> operands_;
     Operand root_ = {Value::nothing, none};

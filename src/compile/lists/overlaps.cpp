@@ -27,16 +27,16 @@ std::span<const std::uint32_t> claimants_of(const CompiledScene& scene, const ke
 
 }  // namespace
 
-void append_overlaps(const CompiledScene& scene, std::span<const kernel::OverlapPiece> pieces, const TracedRays& traced,
-                     RowMemory& rows) {
+void append_overlaps(const CompiledScene& scene, std::span<const kernel::OverlapRecord> overlap_records,
+                     const TracedRays& traced, RowMemory& rows) {
     std::vector<std::uint32_t> found;
-    for (const kernel::OverlapPiece& piece : pieces) {
-        const std::uint32_t first = traced.offsets[piece.ray].segments,
-                            segments = traced.offsets[piece.ray + 1].segments - first;
+    for (const kernel::OverlapRecord& overlap_record : overlap_records) {
+        const std::uint32_t first = traced.offsets[overlap_record.ray].segments,
+                            segments = traced.offsets[overlap_record.ray + 1].segments - first;
         const kernel::End* const ends = traced.ends + 2 * std::size_t{first};
-        const kernel::PartitionNode& node = traced.nodes[2 * std::size_t{first} + piece.node];
-        append_overlap(piece.ray, piece.in, piece.out, claimants_of(scene, ends, segments, ends[node.in_end].t, found),
-                       rows);
+        const kernel::PartitionNode& node = traced.nodes[2 * std::size_t{first} + overlap_record.node];
+        append_overlap(overlap_record.ray, overlap_record.in, overlap_record.out,
+                       claimants_of(scene, ends, segments, ends[node.in_end].t, found), rows);
     }
 }
 

@@ -24,9 +24,9 @@ struct TracedRays {
     const kernel::PartitionNode* nodes;
 };
 
-/// Appends the overlaps of a batch. `pieces`: kernel 6's records, by ray and by distance.
-void append_overlaps(const CompiledScene& scene, std::span<const kernel::OverlapPiece> pieces, const TracedRays& traced,
-                     RowMemory& rows);
+/// Appends the overlaps of a batch. `overlap_records`: kernel 6's records, by ray and by distance.
+void append_overlaps(const CompiledScene& scene, std::span<const kernel::OverlapRecord> overlap_records,
+                     const TracedRays& traced, RowMemory& rows);
 
 /// Appends the next overlap of a ray. It is joined with the previous one if the same regions go on. `claimants`:
 /// ascending.

@@ -1,4 +1,4 @@
-// Rows: the answer of a batch of a list's rays, ray by ray. Kernel 6 and the reference write rows; RowSink copies
+// Rows: the answer of a batch of a list's rays, ray by ray. Kernel 6 and the reference write rows; RowCollector copies
 // batches into the caller's arrays.
 #pragma once
 

@@ -72,7 +72,7 @@ inline long double faint(const Metaball& s) {
     return std::log(static_cast<long double>(s.threshold) / s.points.size()) - below;
 }
 /// The distance from a point at which its field ends: a blob's is cut off where it is negligible.
-inline long double reach_of(const Metaball& s, const Metaball::Point& p) {
+inline long double field_radius(const Metaball& s, const Metaball::Point& p) {
     switch (s.method) {
         case Metaball::Method::isopotential:
             return HUGE_VALL;

@@ -149,7 +149,7 @@ void Packer::operator()(const Metaball& s) {
     // The box of the ball in which a point's field is searched.
     const auto box_of = [&](std::size_t i) {
         constexpr long double searched = 1.001L;
-        const long double reach = reach_of(s, s.points[i]) / f.reach;
+        const long double reach = field_radius(s, s.points[i]) / f.reach;
         const Wide at = local(s.points[i]), most(searched);
         return Box{narrow(glm::max(at - Wide(reach), -most)), narrow(glm::min(at + Wide(reach), most))};
     };

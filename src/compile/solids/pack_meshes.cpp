@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "compile/bvh/build.hpp"
-#include "compile/solids/meshes/mesh_faults.hpp"
+#include "compile/solids/meshes/mesh_repair.hpp"
 #include "compile/solids/packer.hpp"
 #include "compile/solids/meshes/triangles.hpp"
 #include "kernel_host/geometry.hpp"
@@ -157,12 +157,12 @@ void pack_mesh(Packer& packer, const S& solid, const Matrix& own) {
 void pack_volume(Packer& packer, const Bot& bot) {
     packer.record.type = SOLID_MESH;
     packer.record.first_word = shared_words(packer, &bot, [&] {
-        MendedMesh mended = mend(bot);
-        packer.notes = std::move(mended.notes);
-        const std::uint32_t facing = !mended.told_by_facing                                  ? 0
+        RepairedMesh repaired = repair(bot);
+        packer.notes = std::move(repaired.notes);
+        const std::uint32_t facing = !repaired.decided_by_facing                             ? 0
                                      : bot.orientation == Bot::Orientation::counterclockwise ? 1
                                                                                              : 2;
-        add_mesh(mended.mesh, frame_of(mended.mesh), packer.scene, facing);
+        add_mesh(repaired.mesh, frame_of(repaired.mesh), packer.scene, facing);
     });
     place_mesh(packer, packer.record.first_word, identity);
 }
@@ -173,18 +173,18 @@ void pack_plates(Packer& packer, const Bot& bot) {
     packer.record.first_word = shared_words(packer, &bot, [&] {
         const std::size_t first_word = scene.words.size();
         scene.words.resize(first_word + PLATE_MESH);
-        MendedMesh mended = mend(bot);
-        packer.notes = std::move(mended.notes);
-        const MeshFrame frame = frame_of(mended.mesh);
-        const std::vector<std::uint32_t> order = add_mesh(mended.mesh, frame, scene);
-        const std::vector<std::array<std::uint32_t, 3>> across = across_edges(mended.mesh);
+        RepairedMesh repaired = repair(bot);
+        packer.notes = std::move(repaired.notes);
+        const MeshFrame frame = frame_of(repaired.mesh);
+        const std::vector<std::uint32_t> order = add_mesh(repaired.mesh, frame, scene);
+        const std::vector<std::array<std::uint32_t, 3>> across = across_edges(repaired.mesh);
         scene.words[first_word + PLATE_ACROSS] = static_cast<std::uint32_t>(scene.words.size());
         for (const std::uint32_t face : order)
             scene.words.insert(scene.words.end(), across[face].begin(), across[face].end());
         scene.words[first_word + PLATE_EXTENTS] = static_cast<std::uint32_t>(scene.reals.size());
         scene.words[first_word + PLATE_ALONG_RAY] = bot.mode == Bot::Mode::plate_nocos ? 1 : 0;
         for (const std::uint32_t number : order) {
-            const std::uint32_t face = mended.from[number];
+            const std::uint32_t face = repaired.from[number];
             const double thickness = bot.mode == Bot::Mode::surface ? 0 : bot.thickness[face] / frame.scale;
             const bool append = !bot.append.empty() && bot.append[face] != 0;
             scene.reals.push_back(append ? 0 : thickness / 2);

@@ -48,13 +48,13 @@ std::size_t drop_repeated(std::uint32_t* refs, std::size_t count) {
 }
 
 /// A solid without thickness: two of its faces look away from each other in one plane, so nothing is left of it.
-struct Film {
+struct FlatSolid {
     std::size_t solid;
     double thickness;
 };
 
 /// The distance of two such faces as given; none: there are no such faces.
-std::optional<double> thickness_of_film(std::span<const PackedPlane> faces) {
+std::optional<double> flat_thickness(std::span<const PackedPlane> faces) {
     const auto apart = [&](std::size_t i, std::size_t j) {
         const PlaneTable::Key &a = faces[i].key, &b = faces[j].key;
         return std::fabs(glm::dot(wide(a.one.normal), wide(b.one.normal)) < 0 ? a.offset + b.offset
@@ -75,8 +75,8 @@ std::optional<double> thickness_of_film(std::span<const PackedPlane> faces) {
 }
 
 /// Warns of the first few such solids, and says how many more there are.
-void note_films(const std::vector<std::vector<Film>>& films, const Box& common, const Shapes& shapes,
-                std::vector<Warning>& warnings) {
+void note_flat_solids(const std::vector<std::vector<FlatSolid>>& flat_solids, const Box& common, const Shapes& shapes,
+                      std::vector<Warning>& warnings) {
     const auto warn = [&](std::string object, std::string reason) {
         Warning& warning = warnings.emplace_back();
         warning.object = std::move(object);
@@ -84,7 +84,7 @@ void note_films(const std::vector<std::vector<Film>>& films, const Box& common, 
     };
     constexpr std::size_t shown = 5;
     std::size_t count = 0;
-    for (const std::vector<Film>& some : films) {
+    for (const std::vector<FlatSolid>& some : flat_solids) {
         for (const auto& [solid, thickness] : some) {
             // A turn of no angle has a note of its own.
             if (shapes.solids[solid].type == SOLID_REVOLVE && thickness == 0) continue;
@@ -203,7 +203,7 @@ void number_planes(std::vector<PackedChunk>& chunks, const Shards& shards, const
 void write_references(const std::vector<PackedChunk>& chunks, const Box& common, Shapes& shapes,
                       std::vector<Warning>& warnings) {
     std::vector<std::vector<kernel::PlaneRef>> of(chunks.size());
-    std::vector<std::vector<Film>> films(chunks.size());
+    std::vector<std::vector<FlatSolid>> flat_solids(chunks.size());
     for_each_chunk(chunks, [&](std::size_t number) {
         std::vector<kernel::PlaneRef>& own = of[number];
         own.reserve(chunks[number].planes.size());
@@ -217,8 +217,8 @@ void write_references(const std::vector<PackedChunk>& chunks, const Box& common,
             // A wall's plane has an inner side only in a polyhedron: two walls of a concave outline that look away from
             // each other may lie in one plane. The caps always have an inner side.
             const bool is_extrude = shapes.solids[number * PackedChunk::size + i].type == SOLID_EXTRUDE;
-            if (const auto thickness = thickness_of_film({plane, plane + (is_extrude ? 2 : part.faces)}))
-                films[number].push_back({number * PackedChunk::size + i, *thickness});
+            if (const auto thickness = flat_thickness({plane, plane + (is_extrude ? 2 : part.faces)}))
+                flat_solids[number].push_back({number * PackedChunk::size + i, *thickness});
             append(part.faces);
             if (part.is_polyhedron) own.resize(first + drop_repeated(own.data() + first, part.faces));
             append(part.cuts);
@@ -227,7 +227,7 @@ void write_references(const std::vector<PackedChunk>& chunks, const Box& common,
             record.plane_count = static_cast<std::uint32_t>(own.size() - first);
         }
     });
-    note_films(films, common, shapes, warnings);
+    note_flat_solids(flat_solids, common, shapes, warnings);
     std::vector<std::uint32_t> first_ref(chunks.size());
     std::size_t refs = shapes.words.size();
     for (std::size_t number = 0; number < chunks.size(); ++number) {

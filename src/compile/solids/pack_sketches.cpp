@@ -78,7 +78,7 @@ void extrude(Packer& packer, const Prism& prism, SketchParts parts, const void* 
 }  // namespace
 
 void Packer::operator()(const Extrude& s) {
-    extrude(*this, {wide(s.v), wide(s.a), wide(s.b), wide(s.h)}, sketch_parts(closed_pieces(s.sketch)), &s.sketch);
+    extrude(*this, {wide(s.v), wide(s.a), wide(s.b), wide(s.h)}, sketch_parts(closed_curves(s.sketch)), &s.sketch);
 }
 
 void Packer::operator()(const Ebm& s) {
@@ -96,7 +96,7 @@ std::string note_on(const Revolve& s) {
 
 void Packer::operator()(const Revolve& s) {
     record.type = SOLID_REVOLVE;
-    SketchParts parts = sketch_parts(turned_pieces(s.sketch));
+    SketchParts parts = sketch_parts(turned_curves(s.sketch));
     const auto flat = [](const StraightLine& line) { return line.v0 == line.v1; };
     std::stable_partition(parts.lines.begin(), parts.lines.end(), flat);
     const PackedSketch sketch = share_sketch(scene, shared, &s.sketch, parts, SketchCenter::axis);

@@ -32,8 +32,8 @@ PackedSketch place(const SketchParts& parts, SketchCenter center) {
         add(line.u0, line.v0);
         add(line.u1, line.v1);
     }
-    for (const CurvePiece& piece : parts.curves)
-        for (const CurvePoint& p : piece) add(p.u, p.v);
+    for (const BezierCurve& curve : parts.curves)
+        for (const CurvePoint& p : curve) add(p.u, p.v);
     PackedSketch sketch;
     if (u.low > u.high) return sketch;  // the sketch is empty
     sketch.v = static_cast<double>((v.low + v.high) / 2);
@@ -87,10 +87,10 @@ void write(Shapes& scene, const SketchParts& parts, const std::vector<kernel::Bv
         point(line.u0, line.v0);
         point(line.u1, line.v1);
     }
-    for (const CurvePiece& piece : parts.curves) {
+    for (const BezierCurve& curve : parts.curves) {
         scene.words.push_back(position_of(scene.reals.size()));
-        scene.words.push_back(static_cast<std::uint32_t>(piece.size() - 1));
-        for (const CurvePoint& p : piece) {
+        scene.words.push_back(static_cast<std::uint32_t>(curve.size() - 1));
+        for (const CurvePoint& p : curve) {
             point(p.u, p.v);
             number(p.weight);
         }
@@ -99,13 +99,13 @@ void write(Shapes& scene, const SketchParts& parts, const std::vector<kernel::Bv
 
 }  // namespace
 
-SketchParts sketch_parts(std::vector<CurvePiece> pieces) {
+SketchParts sketch_parts(std::vector<BezierCurve> curves) {
     SketchParts parts;
-    for (CurvePiece& piece : pieces) {
-        if (piece.size() == 2) {
-            parts.lines.push_back({piece[0].u, piece[0].v, piece[1].u, piece[1].v});
+    for (BezierCurve& curve : curves) {
+        if (curve.size() == 2) {
+            parts.lines.push_back({curve[0].u, curve[0].v, curve[1].u, curve[1].v});
         } else {
-            parts.curves.push_back(std::move(piece));
+            parts.curves.push_back(std::move(curve));
         }
     }
     return parts;

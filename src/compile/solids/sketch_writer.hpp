@@ -15,9 +15,9 @@ struct StraightLine {
 /// The parts of a sketch: its straight lines, and its curves.
 struct SketchParts {
     std::vector<StraightLine> lines;
-    std::vector<CurvePiece> curves;
+    std::vector<BezierCurve> curves;
 };
-SketchParts sketch_parts(std::vector<CurvePiece> pieces);
+SketchParts sketch_parts(std::vector<BezierCurve> curves);
 
 /// The origin of a sketch's points: the middle of them all, or the point at that height on the axis u = 0.
 enum class SketchCenter : std::uint8_t { middle, axis };

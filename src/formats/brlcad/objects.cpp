@@ -30,7 +30,7 @@ void BrlcadObjects::add(const std::string& name, BrlcadItem item, Place place, s
 }
 
 void BrlcadObjects::add_broken(const std::string& name, std::string type, Fault fault) {
-    if (!findings_.is_lenient() || name.empty()) return findings_.bear(std::move(fault), name, "left out");
+    if (!findings_.is_lenient() || name.empty()) return findings_.tolerate(std::move(fault), name, "left out");
     const std::size_t offset = fault.offset;
     if (!fault.suggestion.empty()) fault.message += "; " + fault.suggestion;
     Shape shape(Unsupported{std::move(type), std::move(fault.message)});
@@ -43,9 +43,9 @@ void BrlcadObjects::add(Entry entry, std::size_t offset) {
         const Place& first = entries_[found->second].place;
         const std::string where =
             first.line > 0 ? "on line " + std::to_string(first.line) : "at byte " + std::to_string(first.offset);
-        findings_.bear({offset, "this name is taken by the object " + where,
-                        "rename one of them: combinations refer to objects by name"},
-                       entry.name, "this one is left out");
+        findings_.tolerate({offset, "this name is taken by the object " + where,
+                            "rename one of them: combinations refer to objects by name"},
+                           entry.name, "this one is left out");
         return;
     }
     entries_.push_back(std::move(entry));

@@ -40,7 +40,7 @@ std::vector<Word> words_of(std::string_view text, std::size_t begin, std::size_t
 }
 
 /// The values that the commands before `end` have set. The rows of `turn` are the view's axes: right, up, to the eye.
-struct State {
+struct ViewState {
     std::optional<double> size, perspective;
     std::optional<Vec3> eye;
     std::optional<std::array<Vec3, 3>> turn;
@@ -224,7 +224,7 @@ private:
 
     const TextSource& source_;
     Findings findings_;
-    State state_;
+    ViewState state_;
 };
 
 }  // namespace

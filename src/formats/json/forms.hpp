@@ -5,7 +5,7 @@
 #include <utility>
 #include <variant>
 
-#include "formats/json/friendly_solids.hpp"
+#include "formats/json/simple_solids.hpp"
 #include "scene/solids/shape_forms.hpp"
 
 namespace csgrt {

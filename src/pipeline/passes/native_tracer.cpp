@@ -52,7 +52,7 @@ struct NativeTracer::Scratch {
     std::vector<std::uint32_t> bits;
     std::vector<kernel::RayTally> tallies;
     std::vector<kernel::RowEnds> bounds;
-    std::vector<kernel::OverlapPiece> pieces;
+    std::vector<kernel::OverlapRecord> overlap_records;
     std::vector<kernel::DeepSegment> deep_segments;
     std::vector<std::uint32_t> status;
     std::vector<kernel::TileNode> lists;
@@ -187,7 +187,7 @@ bool NativeTracer::trace(const kernel::Frame& list, std::span<const kernel::RayR
 }
 
 void NativeTracer::trace(const kernel::Frame& frame, const RayList& rays, std::uint64_t first, std::uint64_t end,
-                         const std::atomic<bool>* stop, RowTaker& sink, PipelineCounts& counts) const {
+                         const std::atomic<bool>* stop, RowReceiver& receiver, PipelineCounts& counts) const {
     static thread_local RowMemory rows;
     std::array<kernel::RayRecord, batch_rays> memory;
     std::uint64_t size = batch_rays;
@@ -198,13 +198,13 @@ void NativeTracer::trace(const kernel::Frame& frame, const RayList& rays, std::u
         // packet gains nothing from points, which have nothing in common.
         const bool by_hits =
             frame.first_row && !frame.whole_lines && records.size() > 1 && records[0].t_near < records[0].t_far;
-        if (!(by_hits && hit(frame, records, sink.fields(), stop, rows, counts)) &&
-            !trace(frame, records, sink.fields(), stop, rows, counts)) {
+        if (!(by_hits && hit(frame, records, receiver.fields(), stop, rows, counts)) &&
+            !trace(frame, records, receiver.fields(), stop, rows, counts)) {
             if (records.size() == 1) throw_too_long_ray(budget_);
             size = records.size() / 2;
             continue;
         }
-        sink.put(rows.view(first, records.size(), sink.fields()));
+        receiver.put(rows.view(first, records.size(), receiver.fields()));
         counts.done.push_back({static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(records.size())});
         first += records.size();
     }
@@ -287,16 +287,17 @@ void NativeTracer::write_rows(Run& run, Fields fields, RowMemory& rows) const {
     rows.reserve(total.segments, fields);
     run.counts.overlaps += total.words;
     kernel::RowEnds* const bounds = fields.solids || fields.normals ? room_for(s.bounds, total.segments) : nullptr;
-    kernel::OverlapPiece* const pieces = fields.overlaps ? room_for(s.pieces, total.words) : nullptr;
+    kernel::OverlapRecord* const overlap_records = fields.overlaps ? room_for(s.overlap_records, total.words) : nullptr;
     run(write_rows_, n, &run.frame, run.rays.data(), offsets, s.ends.data(), s.nodes.data(), places,
-        rows.regions.data(), rows.in.data(), rows.out.data(), bounds, pieces);
+        rows.regions.data(), rows.in.data(), rows.out.data(), bounds, overlap_records);
     if (bounds)
         run(describe_rows_, total.segments, &run.frame, scene_.solids.data(), scene_.reals.data(), scene_.planes.data(),
             scene_.words.data(), scene_.inner_nodes.data(), run.rays.data(), s.ends.data(), bounds, total.segments,
             fields.solids ? rows.in_solids.data() : nullptr, fields.solids ? rows.out_solids.data() : nullptr,
             fields.normals ? rows.in_normals.data() : nullptr, fields.normals ? rows.out_normals.data() : nullptr);
     if (fields.overlaps)
-        append_overlaps(scene_, {pieces, total.words}, {s.offsets.data(), s.ends.data(), s.nodes.data()}, rows);
+        append_overlaps(scene_, {overlap_records, total.words}, {s.offsets.data(), s.ends.data(), s.nodes.data()},
+                        rows);
 }
 
 }  // namespace csgrt

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "compile/lists/ray_list.hpp"
-#include "compile/lists/sink.hpp"
+#include "compile/lists/row_receivers.hpp"
 #include "compile/regions/status_tree.hpp"
 #include "native/kernels.hpp"
 #include "pipeline/counts.hpp"
@@ -32,7 +32,7 @@ public:
     /// Puts the rows of rays [first, end) of a list into the sink, one batch after the other. Any thread. Throws Error
     /// (out_of_memory, interrupted).
     void trace(const kernel::Frame& frame, const RayList& rays, std::uint64_t first, std::uint64_t end,
-               const std::atomic<bool>* stop, RowTaker& sink, PipelineCounts& counts) const;
+               const std::atomic<bool>* stop, RowReceiver& receiver, PipelineCounts& counts) const;
 
 private:
     struct Scratch;

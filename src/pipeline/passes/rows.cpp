@@ -19,7 +19,7 @@ RowPass::RowPass(Device& device, const Program& program, const CompiledScene& sc
       list_claimants_(program.kernel("list_claimants")),
       places_(device, "places of rows"),
       bounds_(device, "rows' ends"),
-      pieces_(device, "overlaps"),
+      overlap_records_(device, "overlaps"),
       claim_places_(device, "places of claims"),
       claimants_(device, "claimants"),
       claimant_counts_(device, "numbers of claimants"),
@@ -68,14 +68,14 @@ bool RowPass::write(const Input& input, const kernel::RayCount& total, Fields fi
             wanted.emplace_back(&columns_[i], std::uint64_t{total.segments} * row_bytes(i));
     }
     bounds_.release();
-    pieces_.release();
+    overlap_records_.release();
     if (is_described) wanted.emplace_back(&bounds_, std::uint64_t{total.segments} * sizeof(kernel::RowEnds));
-    if (fields.overlaps) wanted.emplace_back(&pieces_, std::uint64_t{total.words} * kernels_->piece_bytes());
+    if (fields.overlaps) wanted.emplace_back(&overlap_records_, std::uint64_t{total.words} * kernels_->overlap_bytes());
     if (!reserve(wanted)) return false;
     const auto add = [&](Event event) { timed.emplace_back(&PipelineCounts::rows, std::move(event)); };
     add(write_rows_.launch(total.segments + total.words ? input.count : 0, work_group, input.frame, input.rays,
                            input.offsets, input.ends, input.nodes, places_, columns_[regions], columns_[in],
-                           columns_[out], bounds_, pieces_));
+                           columns_[out], bounds_, overlap_records_));
     add(describe_rows_.launch(is_described ? total.segments : 0, work_group, input.frame, scene.geometry(), input.rays,
                               input.ends, bounds_, cl_uint{total.segments}, columns_[in_solids], columns_[out_solids],
                               columns_[in_normals], columns_[out_normals]));
@@ -114,7 +114,7 @@ const Buffer* RowPass::count_claimants(const Input& input, const SceneTables& sc
     timed.emplace_back(
         &PipelineCounts::rows,
         count_claimants_.launch(total_.words, divergent_group(device_), scene.evaluation(), input.offsets, input.ends,
-                                input.bits, pieces_, cl_uint{total_.words}, claim_places_));
+                                input.bits, overlap_records_, cl_uint{total_.words}, claim_places_));
     return &claim_places_;
 }
 
@@ -124,25 +124,28 @@ bool RowPass::list_claimants(const Input& input, std::uint32_t claims, const Sce
         return false;
     timed.emplace_back(&PipelineCounts::rows,
                        list_claimants_.launch(total_.words, divergent_group(device_), input.frame, scene.evaluation(),
-                                              input.offsets, input.ends, input.bits, pieces_, cl_uint{total_.words},
-                                              claim_places_, claimants_, claimant_counts_));
+                                              input.offsets, input.ends, input.bits, overlap_records_,
+                                              cl_uint{total_.words}, claim_places_, claimants_, claimant_counts_));
     claims_ = claims;
     return true;
 }
 
 void RowPass::read_overlaps() {
-    const auto pieces = kernels_->pieces(pieces_.read<std::byte>(total_.words * kernels_->piece_bytes()));
-    const auto places = claim_places_.read<kernel::RayCount>(pieces.size());
+    const auto overlap_records =
+        kernels_->overlap_records(overlap_records_.read<std::byte>(total_.words * kernels_->overlap_bytes()));
+    const auto places = claim_places_.read<kernel::RayCount>(overlap_records.size());
     const auto claimants = claimants_.read<std::uint32_t>(claims_),
-               counts = claimant_counts_.read<std::uint32_t>(pieces.size());
-    for (std::size_t i = 0; i < pieces.size(); ++i)
-        append_overlap(pieces[i].ray, pieces[i].in, pieces[i].out,
+               counts = claimant_counts_.read<std::uint32_t>(overlap_records.size());
+    for (std::size_t i = 0; i < overlap_records.size(); ++i)
+        append_overlap(overlap_records[i].ray, overlap_records[i].in, overlap_records[i].out,
                        std::span(claimants).subspan(places[i].segments, counts[i]), memory_);
 }
 
 void RowPass::append_overlaps(const TracedBatch& traced) {
-    const auto pieces = kernels_->pieces(pieces_.read<std::byte>(total_.words * kernels_->piece_bytes()));
-    csgrt::append_overlaps(*scene_, pieces, {traced.offsets.data(), traced.ends.data(), traced.nodes.data()}, memory_);
+    const auto overlap_records =
+        kernels_->overlap_records(overlap_records_.read<std::byte>(total_.words * kernels_->overlap_bytes()));
+    csgrt::append_overlaps(*scene_, overlap_records, {traced.offsets.data(), traced.ends.data(), traced.nodes.data()},
+                           memory_);
 }
 
 /// A column, converted to the host's numbers.
@@ -185,14 +188,14 @@ void RowPass::cancel() noexcept {
 
 std::uint64_t RowPass::held() const {
     std::uint64_t sum = 0;
-    for (const Buffer* buffer : {&places_, &bounds_, &pieces_, &claim_places_, &claimants_, &claimant_counts_})
+    for (const Buffer* buffer : {&places_, &bounds_, &overlap_records_, &claim_places_, &claimants_, &claimant_counts_})
         sum += buffer->size();
     for (const Buffer& column : columns_) sum += column.size();
     return sum;
 }
 
 void RowPass::release() {
-    for (Buffer* buffer : {&places_, &bounds_, &pieces_, &claim_places_, &claimants_, &claimant_counts_})
+    for (Buffer* buffer : {&places_, &bounds_, &overlap_records_, &claim_places_, &claimants_, &claimant_counts_})
         buffer->release();
     for (Buffer& column : columns_) column.release();
 }

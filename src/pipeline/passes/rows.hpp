@@ -77,7 +77,7 @@ private:
     const CompiledScene* scene_;
     const HostKernels* kernels_;
     Kernel count_rows_, write_rows_, describe_rows_, count_claimants_, list_claimants_;
-    Buffer places_, bounds_, pieces_, claim_places_, claimants_, claimant_counts_;
+    Buffer places_, bounds_, overlap_records_, claim_places_, claimants_, claimant_counts_;
     std::vector<Buffer> columns_;          ///< by Column
     std::optional<PinnedMemory> staging_;  ///< of the positions and the columns, one after the other
     std::vector<Event> copies_;

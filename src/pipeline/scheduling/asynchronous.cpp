@@ -37,17 +37,17 @@ void AsynchronousSchedule::abandon() noexcept {
         passes_.device.finish();  // queued kernels write into pictures that a frame may take next
     } catch (...) {
     }
-    for (Batch& batch : batches_) batch.state = State::free;
+    for (Batch& batch : batches_) batch.stage = Stage::free;
     overflown_.clear();
     ring_.abandon();
 }
 
 bool AsynchronousSchedule::is_idle() const {
-    return std::ranges::all_of(batches_, [](const Batch& batch) { return batch.state == State::free; });
+    return std::ranges::all_of(batches_, [](const Batch& batch) { return batch.stage == Stage::free; });
 }
 
-AsynchronousSchedule::Batch* AsynchronousSchedule::with(State state) {
-    const auto found = std::ranges::find(batches_, state, &Batch::state);
+AsynchronousSchedule::Batch* AsynchronousSchedule::with(Stage stage) {
+    const auto found = std::ranges::find(batches_, stage, &Batch::stage);
     return found == batches_.end() ? nullptr : &*found;
 }
 
@@ -65,17 +65,17 @@ void AsynchronousSchedule::render(const FrameJob& job) {
     }
     is_memory_short_ = false;
     while (Batch* const batch = next(job)) {
-        switch (batch->state) {
-            case State::free:
+        switch (batch->stage) {
+            case Stage::free:
                 is_memory_short_ = !start_next(*batch, job);
                 break;
-            case State::culled:
+            case Stage::culled:
                 trace(*batch, job);
                 break;
-            case State::traced:
+            case Stage::traced:
                 shade(*batch, job);
                 break;
-            case State::shaded:
+            case Stage::shaded:
                 collect(*batch, job);
                 break;
         }
@@ -87,16 +87,16 @@ void AsynchronousSchedule::render(const FrameJob& job) {
 
 // The batch that goes on next: first one that needs no wait, then the oldest. None: the frame is drawn.
 AsynchronousSchedule::Batch* AsynchronousSchedule::next(const FrameJob& job) {
-    Batch* const free = is_memory_short_ || job.source.is_empty() ? nullptr : with(State::free);
+    Batch* const free = is_memory_short_ || job.source.is_empty() ? nullptr : with(Stage::free);
     if (job.frame.every_partition) {
-        if (Batch* const culled = with(State::culled)) return culled;
-        Batch* const shaded = with(State::shaded);
-        if (Batch* const traced = with(State::traced)) return shaded ? shaded : traced;
+        if (Batch* const culled = with(Stage::culled)) return culled;
+        Batch* const shaded = with(Stage::shaded);
+        if (Batch* const traced = with(Stage::traced)) return shaded ? shaded : traced;
         return free ? free : shaded;
     }
     std::vector<const Event*> ends;
     for (Batch& batch : batches_) {
-        if (batch.state != State::shaded) continue;
+        if (batch.stage != Stage::shaded) continue;
         if (is_done(batch.end())) return &batch;
         ends.push_back(&batch.end());
     }
@@ -106,7 +106,7 @@ AsynchronousSchedule::Batch* AsynchronousSchedule::next(const FrameJob& job) {
     else
         wait_for_one(ends);
     const auto done = std::ranges::find_if(
-        batches_, [](const Batch& batch) { return batch.state == State::shaded && is_done(batch.end()); });
+        batches_, [](const Batch& batch) { return batch.stage == Stage::shaded && is_done(batch.end()); });
     return done == batches_.end() ? next(job) : &*done;
 }
 
@@ -117,7 +117,7 @@ bool AsynchronousSchedule::start_next(Batch& batch, const FrameJob& job) {
     if (is_alone && !rays.is_whole_tiles()) {
         ring_.finish();
         pixels_.draw_part_of_tile(job, rays);
-        job.tell(rays);
+        job.report(rays);
         return true;
     }
     if (rays.is_whole_tiles() && start(batch, job, rays)) return true;
@@ -149,7 +149,7 @@ bool AsynchronousSchedule::start(Batch& batch, const FrameJob& job, const RayBat
         return false;
     }
     const Device::OnQueue queue(passes_.device, queue_of(batch, every));
-    batch.state = State::culled;
+    batch.stage = Stage::culled;
     batch.frame_upload.start<std::byte>(batch.buffers.frame, frame);
     batch.culling.push_back(passes_.cull(batch.frame).launch(*passes_.tables, batch.buffers, batch.frame));
     const std::uint32_t most_in_parts = every ? 0 : TileListPass::most_in_parts(passes_.device);
@@ -161,7 +161,7 @@ bool AsynchronousSchedule::start(Batch& batch, const FrameJob& job, const RayBat
         ReadbackRing::wait(*batch.picture);
         write_background(batch, job);
         batch.drawing = passes_.first_hits().launch(*passes_.tables, batch.buffers, batch.picture->buffer, rays.rays);
-        batch.state = State::shaded;
+        batch.stage = Stage::shaded;
     }
     passes_.device.flush();
     return true;
@@ -198,31 +198,31 @@ void AsynchronousSchedule::trace(Batch& batch, const FrameJob& job) {
     batch.report_read.copy();
     batch.frame.ray_count = batch.report().entries * tile_rays;
     Batch& before = *other(batch);
-    if (before.state == State::shaded && is_done(before.end())) {  // the pixels need not wait for anything
+    if (before.stage == Stage::shaded && is_done(before.end())) {  // the pixels need not wait for anything
         collect(before, job);
-        if (batch.state != State::culled) return;
+        if (batch.stage != Stage::culled) return;
     }
     if (batch.frame.ray_count == 0) {
-        batch.state = State::traced;
+        batch.stage = Stage::traced;
         return;
     }
     if (const auto capacity = passes_.partitions().capacity_for(batch.frame.ray_count)) {
         upload_frame(batch, *capacity);
         passes_.partitions().trace_queued(input_of(batch), *capacity, batch.drawing);
-        batch.state = State::traced;
+        batch.stage = Stage::traced;
         return;
     }
-    if (before.state == State::shaded) collect(before, job);
-    if (batch.state == State::culled) trace_alone(batch, job);
+    if (before.stage == Stage::shaded) collect(before, job);
+    if (batch.stage == Stage::culled) trace_alone(batch, job);
 }
 
 // The step traced -> shaded, when the batch before is collected.
 void AsynchronousSchedule::shade(Batch& batch, const FrameJob& job) {
     if (!acquire_picture(batch, job)) {  // the host waits for memory, so queued work is not waited for again
         passes_.device.finish();
-        batch.state = State::culled;
+        batch.stage = Stage::culled;
         trace_alone(batch, job);
-        if (batch.state != State::traced) return;
+        if (batch.stage != Stage::traced) return;
     }
     ReadbackRing::wait(*batch.picture);
     write_background(batch, job);
@@ -232,7 +232,7 @@ void AsynchronousSchedule::shade(Batch& batch, const FrameJob& job) {
     }
     batch.report_read.start(batch.buffers.report, BatchBuffers::report_bytes(batch.rays));
     passes_.device.flush();
-    batch.state = State::shaded;
+    batch.stage = Stage::shaded;
 }
 
 // The step shaded -> free, or again traced if the capacity was too small.
@@ -273,12 +273,12 @@ void AsynchronousSchedule::collect_partitions(Batch& batch, const FrameJob& job)
 void AsynchronousSchedule::retry(Batch& batch, const FrameJob& job) {
     passes_.device.finish();
     ++job.counts.retried;
-    if (Batch& after = *other(batch); after.state != State::free) {
+    if (Batch& after = *other(batch); after.stage != Stage::free) {
         cancel(after);
         job.source.give_back(after.rays);
     }
     passes_.partitions().cancel_tallies();
-    batch.state = State::culled;
+    batch.stage = Stage::culled;
     trace_alone(batch, job);
 }
 
@@ -296,7 +296,7 @@ void AsynchronousSchedule::trace_alone(Batch& batch, const FrameJob& job) {
             return;
         }
     }
-    batch.state = State::traced;
+    batch.stage = Stage::traced;
 }
 
 bool AsynchronousSchedule::try_alone(Batch& batch, const FrameJob& job) {
@@ -309,14 +309,14 @@ bool AsynchronousSchedule::try_alone(Batch& batch, const FrameJob& job) {
 
 // The batch is drawn: its pixels are copied, and it becomes free.
 void AsynchronousSchedule::read_pixels(Batch& batch, const FrameJob& job) {
-    batch.state = State::free;
+    batch.stage = Stage::free;
     for (const Event& event : batch.culling) add_time(&PipelineCounts::cull_tiles, event, job.counts);
     ring_.collect(batch.frame, batch.rays, batch.shown(), *batch.picture, job.target);
-    job.tell(batch.rays);
+    job.report(batch.rays);
 }
 
 void AsynchronousSchedule::cancel(Batch& batch) {
-    batch.state = State::free;
+    batch.stage = Stage::free;
     if (batch.picture) ReadbackRing::cancel(*std::exchange(batch.picture, nullptr));
 }
 

@@ -43,12 +43,12 @@ public:
     bool reclaim();
 
 private:
-    enum class State { free, culled, traced, shaded };
+    enum class Stage { free, culled, traced, shaded };
 
     struct Batch {
         explicit Batch(Device& device) : buffers(device), report_read(device, "report") {}
 
-        State state = State::free;
+        Stage stage = Stage::free;
         RayBatch rays;
         kernel::Frame frame{};  ///< of the batch's rays; from tracing on, of the rays of its tiles that see anything
         BatchBuffers buffers;
@@ -68,7 +68,7 @@ private:
     };
 
     Batch* next(const FrameJob& job);
-    Batch* with(State state);
+    Batch* with(Stage stage);
     Batch* other(const Batch& batch) { return &batch == &batches_[0] ? &batches_[1] : &batches_[0]; }
     bool is_idle() const;
     std::size_t queue_of(const Batch& batch, bool every_partition) const;

@@ -55,7 +55,7 @@ void DeviceGroup::share(std::uint64_t rays, std::uint64_t row, bool every_partit
         return parts.take();
     };
     if (watch) watch->begin(rays);
-    const Told told = [&](std::uint64_t more) {
+    const ReportDone report_done = [&](std::uint64_t more) {
         if (watch) watch->add(more);
     };
     struct Following {
@@ -71,7 +71,7 @@ void DeviceGroup::share(std::uint64_t rays, std::uint64_t row, bool every_partit
         const std::size_t own_number = joined++;
         PipelineCounts own;
         try {
-            work(*pipelines_[own_number], take, told, own);
+            work(*pipelines_[own_number], take, report_done, own);
         } catch (...) {
             const std::lock_guard lock(mutex);
             parts.stop();
@@ -148,20 +148,20 @@ void DeviceGroup::render(const PreparedFrame& prepared, const RenderTarget& targ
     } if_thrown{pipelines_};
     const std::uint64_t row = std::max(1u, kernel::tiles_across(prepared.frame.screen)) * std::uint64_t{tile_rays};
     share(prepared.rays, row, prepared.frame.every_partition, watch, counts,
-          [&](Pipeline& pipeline, const TakeRays& take, const Told& told, PipelineCounts& own) {
-              pipeline.render(prepared, take, target, told, own);
+          [&](Pipeline& pipeline, const TakeRays& take, const ReportDone& report_done, PipelineCounts& own) {
+              pipeline.render(prepared, take, target, report_done, own);
           });
     clear_around(prepared.frame, target);  // while the last batches' pixels are copied
     for (const auto& pipeline : pipelines_) pipeline->finish();
     if_thrown.is_finished = true;
 }
 
-void DeviceGroup::trace_list(const kernel::Frame& frame, const RayList& rays, RowTaker& sink, Watch* watch,
+void DeviceGroup::trace_list(const kernel::Frame& frame, const RayList& rays, RowReceiver& receiver, Watch* watch,
                              PipelineCounts& counts) {
     start_call();
     share(rays.size(), 1, true, watch, counts,
-          [&](Pipeline& pipeline, const TakeRays& take, const Told& told, PipelineCounts& own) {
-              sink.guard([&] { pipeline.trace_list(frame, rays, take, sink, told, own); });
+          [&](Pipeline& pipeline, const TakeRays& take, const ReportDone& report_done, PipelineCounts& own) {
+              receiver.guard([&] { pipeline.trace_list(frame, rays, take, receiver, report_done, own); });
           });
 }
 

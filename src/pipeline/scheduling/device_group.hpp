@@ -38,7 +38,7 @@ public:
     /// Draws a frame, as Pipeline::render does. Throws Error (interrupted), too, if `watch`, which may be null, says
     /// so.
     void render(const PreparedFrame& prepared, const RenderTarget& target, Watch* watch, PipelineCounts& counts);
-    void trace_list(const kernel::Frame& frame, const RayList& rays, RowTaker& sink, Watch* watch,
+    void trace_list(const kernel::Frame& frame, const RayList& rays, RowReceiver& receiver, Watch* watch,
                     PipelineCounts& counts);
 
     bool uses_driver() const;            ///< some device is not native
@@ -48,7 +48,7 @@ public:
     double build_ms() const;  ///< to set up the devices, and to compile the kernels of the device that took longest
 
 private:
-    using Work = std::function<void(Pipeline&, const TakeRays&, const Told&, PipelineCounts&)>;
+    using Work = std::function<void(Pipeline&, const TakeRays&, const ReportDone&, PipelineCounts&)>;
     Parts parts_of(std::uint64_t rays, std::uint64_t row, std::size_t devices, bool every_partition) const;
     void share(std::uint64_t rays, std::uint64_t row, bool every_partition, Watch* watch, PipelineCounts& counts,
                const Work& work);

@@ -15,22 +15,22 @@
 namespace csgrt {
 
 /// Called with the number of rays that were done. An exception of it ends the work.
-using Told = std::function<void(std::uint64_t rays)>;
+using ReportDone = std::function<void(std::uint64_t rays)>;
 
 /// The data that all batches of a frame share.
 struct FrameJob {
     const kernel::Frame& frame;
     BatchSource& source;
     const RenderTarget& target;
-    const Told& told;
+    const ReportDone& report_done;
     PipelineCounts& counts;
 
     FrameShape shape() const { return shape_of(frame, target.channels.size()); }
     /// Reports that a batch is done.
-    void tell(const RayBatch& batch) const {
+    void report(const RayBatch& batch) const {
         ++counts.batches;
         counts.done.push_back(batch);
-        if (told) told(batch.rays);
+        if (report_done) report_done(batch.rays);
     }
 };
 

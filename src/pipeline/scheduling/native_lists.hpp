@@ -2,7 +2,7 @@
 #pragma once
 
 #include "compile/lists/ray_list.hpp"
-#include "compile/lists/sink.hpp"
+#include "compile/lists/row_receivers.hpp"
 #include "device/device.hpp"
 #include "pipeline/passes/native_tracer.hpp"
 #include "pipeline/scheduling/device_passes.hpp"
@@ -16,8 +16,8 @@ public:
         : device_(device), tracer_(level, scene, device.budget()) {}
 
     /// Puts the rows of a range of the list into the sink.
-    void trace(const kernel::Frame& frame, const RayList& list, const RayNumbers& range, RowTaker& sink,
-               const Told& told, PipelineCounts& counts) const;
+    void trace(const kernel::Frame& frame, const RayList& list, const RayNumbers& range, RowReceiver& receiver,
+               const ReportDone& report_done, PipelineCounts& counts) const;
 
 private:
     const Device& device_;

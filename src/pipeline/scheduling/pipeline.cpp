@@ -36,8 +36,8 @@ DeviceMemory Pipeline::memory() const {
             .max_buffer = device.max_buffer()};
 }
 
-void Pipeline::render(const PreparedFrame& prepared, const TakeRays& take, const RenderTarget& target, const Told& told,
-                      PipelineCounts& counts) {
+void Pipeline::render(const PreparedFrame& prepared, const TakeRays& take, const RenderTarget& target,
+                      const ReportDone& report_done, PipelineCounts& counts) {
     const kernel::Frame& frame = prepared.frame;
     passes_.tables->set_lights(passes_.kernels().lights(prepared.lights));
     prepare(frame.every_partition);
@@ -47,7 +47,7 @@ void Pipeline::render(const PreparedFrame& prepared, const TakeRays& take, const
         asynchronous_ ? most_rays_ : std::min(most_rays_, most_rays_on_processor(frame.every_partition));
     const auto most = [&] { return plan_memory(shape, memory(), underway, limit).batch_rays; };
     BatchSource source(take, most, std::uint64_t{shape.tiles_across} * tile_rays);
-    const FrameJob job{frame, source, target, told, counts};
+    const FrameJob job{frame, source, target, report_done, counts};
     asynchronous_ ? asynchronous_->render(job) : synchronous_.render(job);
 }
 
@@ -60,11 +60,11 @@ void Pipeline::abandon() noexcept {
     if (asynchronous_) asynchronous_->abandon();
 }
 
-void Pipeline::trace_list(const kernel::Frame& frame, const RayList& rays, const TakeRays& take, RowTaker& sink,
-                          const Told& told, PipelineCounts& counts) {
+void Pipeline::trace_list(const kernel::Frame& frame, const RayList& rays, const TakeRays& take, RowReceiver& receiver,
+                          const ReportDone& report_done, PipelineCounts& counts) {
     if (native_) {
         for (RayNumbers range = take(); range.first < range.end; range = take())
-            native_->trace(frame, rays, range, sink, told, counts);
+            native_->trace(frame, rays, range, receiver, report_done, counts);
         return;
     }
     passes_.cancel_tallies();  // of a call that threw
@@ -73,7 +73,7 @@ void Pipeline::trace_list(const kernel::Frame& frame, const RayList& rays, const
                         is_processor() ? most_rays_on_processor(true) : most_rays_listed);
     };
     BatchSource source(take, most, 0);
-    synchronous_.trace_list(frame, rays, source, sink, told, counts);
+    synchronous_.trace_list(frame, rays, source, receiver, report_done, counts);
 }
 
 }  // namespace csgrt

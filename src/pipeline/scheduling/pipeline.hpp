@@ -38,16 +38,16 @@ public:
     void prepare(bool every_partition);
     /// Draws the frame's rays that `take` gives; each range begins with a tile. Some pixels may come into the target
     /// until finish(). Throws Error (out_of_memory, device_fault).
-    void render(const PreparedFrame& prepared, const TakeRays& take, const RenderTarget& target, const Told& told,
-                PipelineCounts& counts);
+    void render(const PreparedFrame& prepared, const TakeRays& take, const RenderTarget& target,
+                const ReportDone& report_done, PipelineCounts& counts);
     /// Returns when the target holds everything that was drawn. Throws if a copy failed.
     void finish();
     /// Returns when nothing more comes into the target.
     void abandon() noexcept;
     /// Puts the rows of each ray that `take` gives into the sink. The native device's own kernels are called without
     /// OpenCL.
-    void trace_list(const kernel::Frame& frame, const RayList& rays, const TakeRays& take, RowTaker& sink,
-                    const Told& told, PipelineCounts& counts);
+    void trace_list(const kernel::Frame& frame, const RayList& rays, const TakeRays& take, RowReceiver& receiver,
+                    const ReportDone& report_done, PipelineCounts& counts);
 
     bool is_asynchronous() const { return asynchronous_.has_value(); }
     double build_ms() const { return passes_.build_ms(); }  ///< spent on compiling kernels so far

@@ -21,11 +21,11 @@ void SynchronousSchedule::for_each_batch(BatchSource& source, const Work& work) 
     constexpr std::uint64_t any = std::numeric_limits<std::uint64_t>::max();
     for (;;) {
         const auto start = Clock::now();
-        const RayBatch batch = source.next(is_paced ? pace_.rays() : any);
+        const RayBatch batch = source.next(is_paced ? batch_size_.rays() : any);
         if (batch.rays == 0) return;
         seen_ = batch.rays;
         if (!work(batch)) source.halve(batch, device.budget());
-        pace_.add(seen_, milliseconds_since(start));
+        batch_size_.add(seen_, milliseconds_since(start));
     }
 }
 
@@ -81,7 +81,7 @@ void SynchronousSchedule::render(const FrameJob& job) {
             draw_part_of_tile(job, batch);
         else if (!draw_tiles(job, batch))
             return false;
-        job.tell(batch);
+        job.report(batch);
         return true;
     });
 }
@@ -189,13 +189,13 @@ void SynchronousSchedule::upload_rays(const RayList& rays, const RayBatch& batch
 
 // While a batch's rows are copied, the next batch is traced.
 void SynchronousSchedule::trace_list(const kernel::Frame& list, const RayList& rays, BatchSource& source,
-                                     RowTaker& sink, const Told& told, PipelineCounts& counts) {
+                                     RowReceiver& receiver, const ReportDone& report_done, PipelineCounts& counts) {
     PartitionPass& pass = passes_.partitions();
     RayBatch copied;
     const auto take_copied = [&] {
         if (!pass.rows().is_underway()) return;
-        sink.put(pass.rows().wait());
-        if (told) told(copied.rays);
+        receiver.put(pass.rows().wait());
+        if (report_done) report_done(copied.rays);
     };
     pass.rows().cancel();  // of a call that threw
     picture_.release();
@@ -210,7 +210,7 @@ void SynchronousSchedule::trace_list(const kernel::Frame& list, const RayList& r
         const PartitionPass::Input input{*passes_.tables, batch_, Work::rays, batch.rays};
         const auto sizes = trace(input, timed);
         take_copied();
-        if (!sizes || !pass.write_rows(input, batch.first, sink.fields(), timed)) return false;
+        if (!sizes || !pass.write_rows(input, batch.first, receiver.fields(), timed)) return false;
         pass.add_sizes(*sizes, batch.rays, counts);
         finish_trace(batch.rays, true, timed, counts);
         wait_for(rays_upload_);

@@ -9,13 +9,13 @@
 #include <vector>
 
 #include "compile/lists/ray_list.hpp"
-#include "compile/lists/sink.hpp"
+#include "compile/lists/row_receivers.hpp"
 #include "pipeline/scheduling/device_passes.hpp"
 
 namespace csgrt {
 
 /// The size of batches: as many rays as take some 10 ms, by the time of the last batches.
-class Pace {
+class BatchSize {
 public:
     std::uint64_t rays() const { return rays_; }
     /// Adds a measurement: so many rays that see something, or of a list, took so long.
@@ -42,8 +42,8 @@ public:
     /// The pixels of a batch that is less than a tile.
     void draw_part_of_tile(const FrameJob& job, const RayBatch& batch);
     /// Puts the rows of the rays that `source` gives, by number, into the sink.
-    void trace_list(const kernel::Frame& frame, const RayList& rays, BatchSource& source, RowTaker& sink,
-                    const Told& told, PipelineCounts& counts);
+    void trace_list(const kernel::Frame& frame, const RayList& rays, BatchSource& source, RowReceiver& receiver,
+                    const ReportDone& report_done, PipelineCounts& counts);
 
     ~SynchronousSchedule() { wait_until_done(rays_upload_); }
 
@@ -75,7 +75,7 @@ private:
     QueuedUpload frame_upload_, list_upload_;
     std::optional<PinnedMemory> staged_rays_;
     Event rays_upload_;
-    Pace pace_;
+    BatchSize batch_size_;
     std::uint64_t seen_ = 0;  ///< rays of the last batch that see something
 };
 

@@ -180,15 +180,15 @@ public:
     }
     std::size_t ray_bytes() const override { return sizeof(k::RayRecord); }
     std::size_t end_bytes() const override { return sizeof(k::End); }
-    std::size_t piece_bytes() const override { return sizeof(k::OverlapPiece); }
+    std::size_t overlap_bytes() const override { return sizeof(k::OverlapRecord); }
     std::size_t wide_bytes() const override { return sizeof(wide); }
-    std::vector<kernel::OverlapPiece> pieces(const std::vector<std::byte>& bytes) const override {
-        std::vector<k::OverlapPiece> own(bytes.size() / sizeof(k::OverlapPiece));
-        if (!own.empty()) std::memcpy(own.data(), bytes.data(), own.size() * sizeof(k::OverlapPiece));
-        std::vector<kernel::OverlapPiece> pieces;
-        for (const k::OverlapPiece& p : own)
-            pieces.push_back({static_cast<double>(p.in), static_cast<double>(p.out), p.ray, p.node});
-        return pieces;
+    std::vector<kernel::OverlapRecord> overlap_records(const std::vector<std::byte>& bytes) const override {
+        std::vector<k::OverlapRecord> own(bytes.size() / sizeof(k::OverlapRecord));
+        if (!own.empty()) std::memcpy(own.data(), bytes.data(), own.size() * sizeof(k::OverlapRecord));
+        std::vector<kernel::OverlapRecord> overlap_records;
+        for (const k::OverlapRecord& p : own)
+            overlap_records.push_back({static_cast<double>(p.in), static_cast<double>(p.out), p.ray, p.node});
+        return overlap_records;
     }
     std::vector<kernel::End> ends(const std::vector<std::byte>& bytes) const override {
         std::vector<k::End> ends(bytes.size() / sizeof(k::End));
@@ -198,7 +198,7 @@ public:
 
     void append_rows(const kernel::Frame& f, const kernel::RayRecord& ray, const std::vector<kernel::End>& ends,
                      const std::vector<kernel::PartitionNode>& nodes, Fields fields, RowMemory& rows,
-                     std::vector<kernel::OverlapPiece>& pieces) const override {
+                     std::vector<kernel::OverlapRecord>& overlap_records) const override {
         const k::Frame& frame = convert_frame(f);
         const k::RayRecord record = convert(ray);
         std::vector<k::End> own_ends;
@@ -224,9 +224,9 @@ public:
             describe(row.in_end, 0, rows.in_solids, rows.in_normals);
             describe(row.out_end, 1, rows.out_solids, rows.out_normals);
         }
-        pieces.clear();
+        overlap_records.clear();
         for (k::u32 node = 0; k::next_overlap(&overlaps, &row, &node);)
-            pieces.push_back({static_cast<double>(row.in), static_cast<double>(row.out), 0, node});
+            overlap_records.push_back({static_cast<double>(row.in), static_cast<double>(row.out), 0, node});
     }
 
     Ray camera_ray(const kernel::Frame& f, std::uint32_t x, std::uint32_t y) const override {

@@ -5,7 +5,7 @@
 
 #include "scene/solids/sketch_curves.hpp"
 #include "scene/faults/sketches.hpp"
-#include "scene/solids/sketch_reach.hpp"
+#include "scene/solids/sketch_extent.hpp"
 #include "scene/faults/families.hpp"
 
 namespace csgrt {
@@ -78,7 +78,7 @@ void check_profile(Faults& faults, const Sketch& sketch) {
         faults.push_back("curve " + std::to_string(i) + " of its sketch crosses the axis: u must be 0 or more");
         return;
     }
-    if (!(reach_of(curve_pieces(sketch), 1, 0).second > 0)) {
+    if (!(extent_of(bezier_curves(sketch), 1, 0).second > 0)) {
         faults.push_back("its sketch does not reach out from the axis");
     }
 }
@@ -86,8 +86,8 @@ void check_profile(Faults& faults, const Sketch& sketch) {
 /// Are there loose ends? Gaps that BRL-CAD does not see are closed, so they are not faults.
 bool is_open(const Sketch& sketch) {
     if (open_ends(sketch).empty()) return false;
-    std::vector<CurvePiece> pieces = curve_pieces(sketch);
-    return !close_gaps(pieces).empty();
+    std::vector<BezierCurve> curves = bezier_curves(sketch);
+    return !close_gaps(curves).empty();
 }
 
 void add(Faults& faults, Faults more) { std::move(more.begin(), more.end(), std::back_inserter(faults)); }

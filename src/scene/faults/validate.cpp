@@ -50,7 +50,7 @@ public:
             solids = saturating_sum(solids, objects_[root].solids);
         }
         report_unsupported();
-        if (scene_.lenient) report_hollow();
+        if (scene_.lenient) report_empty();
         if (found_.empty() && solids == 0 && warnings_.empty()) {
             add(roots.empty() ? Place{} : place_of(scene_.objects[roots.front()]),
                 "there is nothing to render: the objects hold no solids", "name objects that do, or add solids");
@@ -64,13 +64,13 @@ public:
     }
 
 private:
-    enum class State : std::uint8_t { unseen, open, done };
+    enum class Visit : std::uint8_t { unseen, open, done };
     struct Reached {
         std::uint64_t solids = 0;  ///< instances, repeats counted: below the object, or of the solid itself
         std::uint32_t height = 0;  ///< combinations on the longest path downward, with this one
         std::uint32_t users = 0;   ///< members that name it, each counted once
         std::uint32_t first_user = 0;
-        State state = State::unseen;
+        Visit visit = Visit::unseen;
         bool sound = false;  ///< it has no fault of its own
     };
     struct Level {};
@@ -120,7 +120,7 @@ private:
     }
 
     void walk(std::uint32_t root) {
-        if (objects_[root].state != State::unseen) return;
+        if (objects_[root].visit != Visit::unseen) return;
         if (enter(root)) {
             walk_.below(names_, root, {}, *this);
         } else {
@@ -130,7 +130,7 @@ private:
 
     /// Returns whether the object is a combination whose tree is walked.
     bool enter(std::uint32_t object) {
-        objects_[object].state = State::open;
+        objects_[object].visit = Visit::open;
         const bool is_solid = names_.is_solid(object);
         if (objects_[object].sound) return !is_solid;
         if (const auto* solid = std::get_if<Solid>(&scene_.objects[object])) {
@@ -148,7 +148,7 @@ private:
         return !is_solid;
     }
 
-    void bear(const std::string& object, const Place& place, std::string reason) {
+    void tolerate(const std::string& object, const Place& place, std::string reason) {
         warnings_.push_back({object, place, std::move(reason), 1});
     }
 
@@ -156,14 +156,14 @@ private:
     void leave_out(std::uint32_t object, const Place& place, const std::string& reason) {
         names_.leave_out(object);
         counted_.emplace_back(warnings_.size(), object);
-        bear(name_of(scene_.objects[object]), place, "left out: " + reason);
+        tolerate(name_of(scene_.objects[object]), place, "left out: " + reason);
     }
 
     /// Leaves out the wrong parts of a combination. Returns whether its tree can be walked.
     bool leave_out_parts(std::uint32_t object) {
         const Combination& combination = std::get<Combination>(scene_.objects[object]);
         check_attributes(combination, [&](const Place& place, const std::string& message, const std::string&) {
-            bear(combination.name, place, message + "; taken as it is");
+            tolerate(combination.name, place, message + "; taken as it is");
         });
         bool sound = true;
         check_tree(combination, [&](const Place& place, const std::string& message, const std::string&) {
@@ -176,22 +176,22 @@ private:
             check_matrix(combination.tree.nodes[i],
                          [&](const Place& place, const std::string& message, const std::string&) {
                              names_.leave_out(object, i);
-                             bear(combination.name, place, message + "; the leg is left out");
+                             tolerate(combination.name, place, message + "; the leg is left out");
                          });
         }
         return true;
     }
 
     /// Adds one warning for all members that name the same missing object.
-    void leave_out_missing(std::uint32_t parent, std::size_t node, const TreeNode& leg) {
+    void leave_out_missing(std::uint32_t parent, std::size_t node, const TreeNode& member) {
         names_.leave_out(parent, node);
-        const auto [known, is_new] = missing_.try_emplace(leg.object, warnings_.size());
+        const auto [known, is_new] = missing_.try_emplace(member.object, warnings_.size());
         if (!is_new) {
             ++warnings_[known->second].count;
             return;
         }
-        bear(leg.object, leg.place,
-             "left out: there is no such object; used by '" + name_of(scene_.objects[parent]) + "'");
+        tolerate(member.object, member.place,
+                 "left out: there is no such object; used by '" + name_of(scene_.objects[parent]) + "'");
     }
 
     // The walk calls the functions below.
@@ -204,12 +204,12 @@ private:
         }
         Reached& child = objects_[object];
         if (child.users++ == 0) child.first_user = parent.object;
-        if (child.state == State::open) {
+        if (child.visit == Visit::open) {
             report_cycle(parent.object, node, object);
-        } else if (child.state == State::done) {
+        } else if (child.visit == Visit::done) {
             add_below(parent.object, child);
         } else if (child.sound && names_.is_solid(object)) {
-            child.state = State::done;  // the same as entering and closing it
+            child.visit = Visit::done;  // the same as entering and closing it
             add_below(parent.object, child);
         } else if (enter(object)) {
             return Level{};
@@ -237,7 +237,7 @@ private:
     /// Closes an object: everything below it is known.
     void close(std::uint32_t object) {
         Reached& reached = objects_[object];
-        reached.state = State::done;
+        reached.visit = Visit::done;
         const auto name = [&] { return "'" + name_of(scene_.objects[object]) + "'"; };
         const auto place = [&]() -> const Place& { return place_of(scene_.objects[object]); };
         if (names_.kind(object) == Names::Kind::left_out) {
@@ -274,7 +274,7 @@ private:
         for (; first < path.size(); ++first) cycle += name_of(scene_.objects[path[first].object]) + "/";
         if (scene_.lenient) {
             names_.leave_out(parent, node);
-            bear(back.object, back.place, "contains itself: " + cycle + back.object + "; that leg is left out");
+            tolerate(back.object, back.place, "contains itself: " + cycle + back.object + "; that leg is left out");
             return;
         }
         add(back.place, "'" + back.object + "' contains itself: " + cycle + back.object, "take one of these legs out");
@@ -282,9 +282,9 @@ private:
 
     /// Reports combinations without a tree; BRL-CAD's objects without an inside are such, too. Flattening reports
     /// regions.
-    void report_hollow() {
+    void report_empty() {
         for (std::uint32_t i = 0; i < objects_.size(); ++i) {
-            if (objects_[i].state == State::unseen || objects_[i].users == 0) continue;
+            if (objects_[i].visit == Visit::unseen || objects_[i].users == 0) continue;
             if (names_.kind(i) != Names::Kind::combination || !names_.children(i).empty()) continue;
             leave_out(i, place_of(scene_.objects[i]), "there is nothing in it");
         }
@@ -302,7 +302,7 @@ private:
 
     void report_unsupported() {
         for (std::uint32_t i = 0; i < objects_.size(); ++i) {
-            if (names_.kind(i) != Names::Kind::unsupported || objects_[i].state == State::unseen) continue;
+            if (names_.kind(i) != Names::Kind::unsupported || objects_[i].visit == Visit::unseen) continue;
             const auto* solid = std::get_if<Solid>(&scene_.objects[i]);
             const auto* shape = std::get_if<Unsupported>(&solid->shape);
             if (skip_unsupported_) {

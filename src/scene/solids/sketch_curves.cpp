@@ -15,11 +15,11 @@ constexpr std::size_t gaps_to_close = 1000;
 
 struct Converter {
     const Sketch& sketch;
-    std::vector<CurvePiece> pieces;
+    std::vector<BezierCurve> curves;
 
     CurvePoint vertex(std::uint32_t i) const { return {sketch.vertices[i].u, sketch.vertices[i].v, 1}; }
 
-    void operator()(const Sketch::Line& line) { pieces.push_back({vertex(line.start), vertex(line.end)}); }
+    void operator()(const Sketch::Line& line) { curves.push_back({vertex(line.start), vertex(line.end)}); }
 
     void operator()(const Sketch::Arc& arc) {
         const CurvePoint start = vertex(arc.start), end = vertex(arc.end);
@@ -40,7 +40,7 @@ struct Converter {
             y = x;
             x = turned;
             const CurvePoint to = quarter == 3 ? start : CurvePoint{center.u + x, center.v + y, 1};
-            pieces.push_back({from, corner, to});
+            curves.push_back({from, corner, to});
             from = to;
         }
     }
@@ -71,15 +71,15 @@ struct Converter {
             CurvePoint corner = at(r * std::sin(middle) / cosine, r * (rise(middle) + lift) / cosine);
             corner.weight = cosine;
             const CurvePoint to = i + 1 == count ? end : at(r * std::sin(last), r * rise(last));
-            pieces.push_back({from, corner, to});
+            curves.push_back({from, corner, to});
             from = to;
         }
     }
 
     void operator()(const Sketch::Bezier& bezier) {
-        CurvePiece piece;
-        for (const std::uint32_t i : bezier.points) piece.push_back(vertex(i));
-        pieces.push_back(std::move(piece));
+        BezierCurve curve;
+        for (const std::uint32_t i : bezier.points) curve.push_back(vertex(i));
+        curves.push_back(std::move(curve));
     }
 
     /// Adds a B-spline. A span's control points are the values of the curve's polar form at the span's limits (Ramshaw
@@ -87,7 +87,7 @@ struct Converter {
     void operator()(const Sketch::Nurb& nurb) {
         const std::size_t degree = nurb.order - 1, count = nurb.points.size();
         const auto polar = [&](std::size_t span, const std::vector<double>& at) {
-            CurvePiece points;  // homogeneous
+            BezierCurve points;  // homogeneous
             for (std::size_t i = span - degree; i <= span; ++i) {
                 const CurvePoint p = vertex(nurb.points[i]);
                 const long double w = nurb.weights.empty() ? 1 : nurb.weights[i];
@@ -103,35 +103,35 @@ struct Converter {
             const CurvePoint& p = points[degree];
             return CurvePoint{p.u / p.weight, p.v / p.weight, p.weight};
         };
-        const std::size_t first = pieces.size();
+        const std::size_t first = curves.size();
         for (std::size_t span = degree; span < count; ++span) {
             const double low = nurb.knots[span], high = nurb.knots[span + 1];
             if (!(low < high)) continue;
-            CurvePiece piece;
+            BezierCurve curve;
             std::vector<double> at(degree, low);
             for (std::size_t i = 0; i <= degree; ++i) {
-                piece.push_back(polar(span, at));
+                curve.push_back(polar(span, at));
                 if (i < degree) at[i] = high;
             }
-            normalize(piece);
-            if (pieces.size() > first) piece.front() = pieces.back().back();
-            pieces.push_back(std::move(piece));
+            normalize(curve);
+            if (curves.size() > first) curve.front() = curves.back().back();
+            curves.push_back(std::move(curve));
         }
-        snap(pieces[first].front(), vertex(nurb.points.front()));
-        snap(pieces.back().back(), vertex(nurb.points.back()));
+        snap(curves[first].front(), vertex(nurb.points.front()));
+        snap(curves.back().back(), vertex(nurb.points.back()));
     }
 
     /// Makes the weights at both ends 1: with its weights multiplied by c s^i a curve keeps its shape, with another
     /// parameter.
-    static void normalize(CurvePiece& piece) {
-        const long double degree = static_cast<long double>(piece.size() - 1), scale = 1 / piece.front().weight;
-        const long double pace = std::pow(piece.front().weight / piece.back().weight, 1 / degree);
+    static void normalize(BezierCurve& curve) {
+        const long double degree = static_cast<long double>(curve.size() - 1), scale = 1 / curve.front().weight;
+        const long double pace = std::pow(curve.front().weight / curve.back().weight, 1 / degree);
         long double factor = scale;
-        for (CurvePoint& p : piece) {
+        for (CurvePoint& p : curve) {
             p.weight *= factor;
             factor *= pace;
         }
-        piece.front().weight = piece.back().weight = 1;
+        curve.front().weight = curve.back().weight = 1;
     }
 
     /// Moves an end onto a vertex if only rounding separates them.
@@ -145,17 +145,17 @@ bool before(const CurvePoint& a, const CurvePoint& b) { return a.u != b.u ? a.u 
 
 }  // namespace
 
-std::vector<CurvePiece> curve_pieces(const Sketch& sketch) {
+std::vector<BezierCurve> bezier_curves(const Sketch& sketch) {
     Converter converter{sketch, {}};
     for (const Sketch::Curve& curve : sketch.curves) std::visit(converter, curve);
-    return std::move(converter.pieces);
+    return std::move(converter.curves);
 }
 
-std::vector<CurvePoint> loose_ends(const std::vector<CurvePiece>& pieces) {
+std::vector<CurvePoint> loose_ends(const std::vector<BezierCurve>& curves) {
     std::vector<CurvePoint> ends, loose;
-    for (const CurvePiece& piece : pieces) {
-        ends.push_back(piece.front());
-        ends.push_back(piece.back());
+    for (const BezierCurve& curve : curves) {
+        ends.push_back(curve.front());
+        ends.push_back(curve.back());
     }
     std::sort(ends.begin(), ends.end(), before);
     for (std::size_t i = 0; i < ends.size();) {
@@ -167,8 +167,8 @@ std::vector<CurvePoint> loose_ends(const std::vector<CurvePiece>& pieces) {
     return loose;
 }
 
-std::vector<CurvePoint> close_gaps(std::vector<CurvePiece>& pieces) {
-    std::vector<CurvePoint> loose = loose_ends(pieces), left;
+std::vector<CurvePoint> close_gaps(std::vector<BezierCurve>& curves) {
+    std::vector<CurvePoint> loose = loose_ends(curves), left;
     if (loose.size() > gaps_to_close) return loose;
     while (!loose.empty()) {
         const CurvePoint p = loose.back();
@@ -177,7 +177,7 @@ std::vector<CurvePoint> close_gaps(std::vector<CurvePiece>& pieces) {
         const auto nearest =
             std::min_element(loose.begin(), loose.end(), [&](const auto& a, const auto& b) { return gap(a) < gap(b); });
         if (nearest != loose.end() && gap(*nearest) <= same_point) {
-            pieces.push_back({p, *nearest});
+            curves.push_back({p, *nearest});
             loose.erase(nearest);
         } else {
             left.push_back(p);
@@ -186,17 +186,17 @@ std::vector<CurvePoint> close_gaps(std::vector<CurvePiece>& pieces) {
     return left;
 }
 
-std::vector<CurvePiece> closed_pieces(const Sketch& sketch) {
-    std::vector<CurvePiece> pieces = curve_pieces(sketch);
-    close_gaps(pieces);
-    return pieces;
+std::vector<BezierCurve> closed_curves(const Sketch& sketch) {
+    std::vector<BezierCurve> curves = bezier_curves(sketch);
+    close_gaps(curves);
+    return curves;
 }
 
-std::vector<CurvePiece> turned_pieces(const Sketch& sketch) {
-    std::vector<CurvePiece> pieces = curve_pieces(sketch);
-    for (const CurvePoint& end : close_gaps(pieces))
-        if (end.u != 0) pieces.push_back({end, {0, end.v, 1}});
-    return pieces;
+std::vector<BezierCurve> turned_curves(const Sketch& sketch) {
+    std::vector<BezierCurve> curves = bezier_curves(sketch);
+    for (const CurvePoint& end : close_gaps(curves))
+        if (end.u != 0) curves.push_back({end, {0, end.v, 1}});
+    return curves;
 }
 
 }  // namespace csgrt

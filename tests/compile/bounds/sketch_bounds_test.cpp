@@ -8,7 +8,7 @@
 #include "compile/solids/axis_frame.hpp"
 #include "oracle/profiles.hpp"
 #include "oracle/revolved.hpp"
-#include "scene/solids/sketch_reach.hpp"
+#include "scene/solids/sketch_extent.hpp"
 
 using namespace csgrt;
 
@@ -112,10 +112,10 @@ TEST_CASE("bounds: the box of an ebm holds its solid cells only") {
 TEST_CASE("bounds: how far curves reach") {
     // A quarter of the unit circle, and a parabola.
     const long double w = std::sqrt(0.5L);
-    const auto quarter = reach_of({{{1, 0, 1}, {1, 1, w}, {0, 1, 1}}}, 1, 1);
+    const auto quarter = extent_of({{{1, 0, 1}, {1, 1, w}, {0, 1, 1}}}, 1, 1);
     CHECK(static_cast<double>(quarter.first) == Approx(1).epsilon(1e-15));
     CHECK(static_cast<double>(quarter.second) == Approx(std::sqrt(2.0)).epsilon(1e-15));
-    const auto parabola = reach_of({{{0, 0, 1}, {1, 2, 1}, {2, 0, 1}}}, 0, 1);
+    const auto parabola = extent_of({{{0, 0, 1}, {1, 2, 1}, {2, 0, 1}}}, 0, 1);
     CHECK(static_cast<double>(parabola.second) == Approx(1).epsilon(1e-15));
     CHECK(parabola.second >= 1);
 }

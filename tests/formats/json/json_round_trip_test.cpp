@@ -9,7 +9,7 @@
 
 #include <csgrt/scene_io.hpp>
 
-#include "formats/json/friendly_solids.hpp"
+#include "formats/json/simple_solids.hpp"
 #include "formats/json/parse_text.hpp"
 #include "formats/json/write/writer.hpp"
 #include "formats/json/random_shape.hpp"

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "formats/json/friendly_solids.hpp"
+#include "formats/json/simple_solids.hpp"
 #include "formats/json/parse_text.hpp"
 #include "scene/vector.hpp"
 

@@ -6,7 +6,7 @@
 
 #include <csgrt/scene.hpp>
 
-#include "formats/json/friendly_solids.hpp"
+#include "formats/json/simple_solids.hpp"
 
 namespace csgrt {
 

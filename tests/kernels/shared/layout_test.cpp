@@ -44,8 +44,8 @@ using namespace csgrt;
     RECORD(RayRecord) \
     FIELD(RayRecord, ox) FIELD(RayRecord, oy) FIELD(RayRecord, oz) FIELD(RayRecord, dx) FIELD(RayRecord, dy) \
     FIELD(RayRecord, dz) FIELD(RayRecord, t_near) FIELD(RayRecord, t_far) RECORD(RowEnds) FIELD(RowEnds, ray) \
-    FIELD(RowEnds, in_end) FIELD(RowEnds, out_end) RECORD(OverlapPiece) FIELD(OverlapPiece, in) \
-    FIELD(OverlapPiece, out) FIELD(OverlapPiece, ray) FIELD(OverlapPiece, node) RECORD(TileNode) \
+    FIELD(RowEnds, in_end) FIELD(RowEnds, out_end) RECORD(OverlapRecord) FIELD(OverlapRecord, in) \
+    FIELD(OverlapRecord, out) FIELD(OverlapRecord, ray) FIELD(OverlapRecord, node) RECORD(TileNode) \
     FIELD(TileNode, node) FIELD(TileNode, entry) \
     RECORD(BatchReport) FIELD(BatchReport, candidates) FIELD(BatchReport, total) FIELD(BatchReport, tiles) \
     FIELD(BatchReport, listed) \

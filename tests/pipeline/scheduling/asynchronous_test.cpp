@@ -143,7 +143,7 @@ struct Lined {
     std::vector<RayPartitions> trace(const kernel::Frame& frame, const std::vector<Ray>& rays) {
         PipelineCounts counts;
         Partitions answer;
-        RowSink sink(answer, all_fields, rays.size());
+        RowCollector sink(answer, all_fields, rays.size());
         pipeline.trace_list(frame, RayList(rays, {.all = whole_line}), ranges_of(rays.size(), rays.size()), sink,
                             nullptr, counts);
         return along_rays(answer);

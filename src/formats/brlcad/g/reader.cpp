@@ -65,7 +65,7 @@ private:
                 if (object.end == 0 || is_misplaced(object)) {
                     findings_.add(std::move(fault), object.name);
                 } else {
-                    findings_.bear(std::move(fault), object.name, "left out");
+                    findings_.tolerate(std::move(fault), object.name, "left out");
                 }
             }
             if (object.end == 0) return;
@@ -101,7 +101,7 @@ private:
             for (const Attribute& attribute : read_g_attributes(object.attributes))
                 set_global_attribute(scene_, attribute, source_);
         } catch (Fault& fault) {
-            findings_.bear(std::move(fault), object.name, passed_over);
+            findings_.tolerate(std::move(fault), object.name, passed_over);
         }
     }
 
@@ -136,7 +136,7 @@ private:
         try {
             set_attributes(combination, read_g_attributes(object.attributes), findings_);
         } catch (Fault& fault) {
-            findings_.bear(std::move(fault), object.name, passed_over);
+            findings_.tolerate(std::move(fault), object.name, passed_over);
         }
         return combination;
     }

@@ -105,11 +105,11 @@ private:
         if (letter.text.size() != 1 || line.text[0] != letter.text[0]) return refuse_record(line);
         switch (letter.text[0]) {
             case 'I':
-                return bear_faults([&] { read_ident(fields); });
+                return tolerate_faults([&] { read_ident(fields); });
             case 'C':
                 return read_combination(line, fields);
             case 'm':
-                return bear_faults([&] { read_color(fields); });
+                return tolerate_faults([&] { read_color(fields); });
             case 'F':
                 return;  // a free record
             default:
@@ -127,11 +127,11 @@ private:
     }
 
     template <class Read>
-    void bear_faults(const Read& read) {
+    void tolerate_faults(const Read& read) {
         try {
             read();
         } catch (Fault& fault) {
-            findings_.bear(std::move(fault), object_, passed_over);
+            findings_.tolerate(std::move(fault), object_, passed_over);
         }
     }
 

@@ -129,7 +129,7 @@ void set_attributes(Combination& combination, std::span<const Attribute> attribu
             try {
                 set_attribute(combination, attribute);
             } catch (Fault& fault) {
-                findings.bear(std::move(fault), combination.name, passed_over);
+                findings.tolerate(std::move(fault), combination.name, passed_over);
             }
         }
     }

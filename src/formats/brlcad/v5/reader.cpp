@@ -59,7 +59,7 @@ public:
             try {
                 read_command();
             } catch (Fault& fault) {
-                bear(std::move(fault));
+                tolerate(std::move(fault));
             }
         }
         if (read_again_ >= most_read_again) findings_.stop();
@@ -78,13 +78,13 @@ private:
     }
 
     /// Tolerates a fault, unless the command is unknown: then the file is of another kind.
-    void bear(Fault fault) {
+    void tolerate(Fault fault) {
         const std::string_view command = words_[0].text;
         if (command == "put") {
             broken_.insert(object_);
             objects_.add_broken(object_, words_.size() > 2 ? tcl_name(words_[2]) : "solid", std::move(fault));
         } else if (command == "attr" || command == "color" || command == "title" || command == "units") {
-            findings_.bear(std::move(fault), object_, passed_over);
+            findings_.tolerate(std::move(fault), object_, passed_over);
         } else {
             findings_.add(std::move(fault), object_);
         }
@@ -156,7 +156,7 @@ private:
                     throw Fault{key.offset, quoted(key.text) + " is no parameter of a comb", {}};
             } catch (Fault& fault) {
                 if (!findings_.is_lenient()) throw;
-                findings_.bear(std::move(fault), object_, passed_over);
+                findings_.tolerate(std::move(fault), object_, passed_over);
             }
         }
         return combination;
@@ -177,7 +177,7 @@ private:
                 try {
                     set_global_attribute(scene_, attribute, source_);
                 } catch (Fault& fault) {
-                    findings_.bear(std::move(fault), object_, passed_over);
+                    findings_.tolerate(std::move(fault), object_, passed_over);
                 }
             }
             return;

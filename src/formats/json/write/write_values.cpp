@@ -47,15 +47,15 @@ void write_turn(ordered_json& out, form::Turn, double angle, JsonUnit& unit) {
 namespace {
 
 /// Writes the shape in a form if it fits; the first of its forms that fits is used.
-template <class S, class Friendly>
+template <class S, class Simple>
 bool write_as(const S& s, JsonUnit& unit, ordered_json& out) {
-    if constexpr (std::is_same_v<S, Friendly>) {
+    if constexpr (std::is_same_v<S, Simple>) {
         out = write_form(s, unit);
         return true;
     } else {
-        Friendly friendly;
-        if (!simplify(s, friendly)) return false;
-        out = write_form(friendly, unit);
+        Simple simple;
+        if (!simplify(s, simple)) return false;
+        out = write_form(simple, unit);
         return true;
     }
 }

@@ -1,4 +1,4 @@
-#include "formats/json/friendly_solids.hpp"
+#include "formats/json/simple_solids.hpp"
 
 #include <array>
 #include <cmath>
@@ -55,28 +55,27 @@ Arb arb(const std::vector<Vec3>& vertices) {
     return solid;
 }
 
-bool simplify(const Ell& solid, Sphere& friendly) {
-    friendly = {solid.v, solid.a.x};
-    return friendly.radius > 0 && same_bits(model_of(friendly), solid);
+bool simplify(const Ell& solid, Sphere& simple) {
+    simple = {solid.v, solid.a.x};
+    return simple.radius > 0 && same_bits(model_of(simple), solid);
 }
 
-bool simplify(const Tgc& solid, Cone& friendly) {
-    friendly = {solid.v, solid.h, length(solid.a), length(solid.c)};
-    return length(solid.h) > 0 && (friendly.radius > 0 || friendly.top_radius > 0) &&
-           same_bits(model_of(friendly), solid);
+bool simplify(const Tgc& solid, Cone& simple) {
+    simple = {solid.v, solid.h, length(solid.a), length(solid.c)};
+    return length(solid.h) > 0 && (simple.radius > 0 || simple.top_radius > 0) && same_bits(model_of(simple), solid);
 }
 
-bool simplify(const Tgc& solid, Cylinder& friendly) {
+bool simplify(const Tgc& solid, Cylinder& simple) {
     Cone as_cone;
     if (!simplify(solid, as_cone)) return false;
-    friendly = {solid.v, solid.h, as_cone.radius};
+    simple = {solid.v, solid.h, as_cone.radius};
     return as_cone.radius == as_cone.top_radius;
 }
 
-bool simplify(const Arb& solid, UprightBox& friendly) {
-    friendly = {solid.vertices[4], solid.vertices[2]};
-    const auto& [low, high] = friendly;
-    return low.x < high.x && low.y < high.y && low.z < high.z && same_bits(model_of(friendly), solid);
+bool simplify(const Arb& solid, UprightBox& simple) {
+    simple = {solid.vertices[4], solid.vertices[2]};
+    const auto& [low, high] = simple;
+    return low.x < high.x && low.y < high.y && low.z < high.z && same_bits(model_of(simple), solid);
 }
 
 bool simplify(const Arb& solid, std::span<Vec3> vertices) {

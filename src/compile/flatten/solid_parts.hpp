@@ -12,17 +12,17 @@
 namespace csgrt {
 
 /// One solid in a form that the kernels know.
-struct Piece {
+struct SolidPart {
     Shape shape;
     std::vector<Plane> cuts;  ///< a torus only, two at most: the part inside all of them is kept
 };
 
-struct Pieces {
-    std::vector<Piece> pieces;  ///< empty: the solid is not made of others
-    FlatTree tree;              ///< leaves are numbers of pieces
+struct SolidParts {
+    std::vector<SolidPart> parts;  ///< empty: the solid is not made of others
+    FlatTree tree;                 ///< leaves are numbers of parts
 };
 
 /// Takes a pipe or a cline apart, or an arb that is_concave. The solid must be sound (see solid_faults).
-Pieces pieces_of(const Shape& shape);
+SolidParts parts_of(const Shape& shape);
 
 }  // namespace csgrt

@@ -1,14 +1,14 @@
-#include "compile/flatten/look_table.hpp"
+#include "compile/flatten/appearance_table.hpp"
 
 #include <algorithm>
 
 namespace csgrt {
 
-LookTable::LookTable(const std::vector<Look>& looks) : looks_(looks) {
+AppearanceTable::AppearanceTable(const std::vector<Look>& looks) : looks_(looks) {
     for (std::uint32_t i = 0; i < looks.size(); ++i) by_path_[looks[i].path].push_back(i);
 }
 
-std::vector<std::uint32_t> LookTable::find(std::string_view path) const {
+std::vector<std::uint32_t> AppearanceTable::find(std::string_view path) const {
     std::vector<std::uint32_t> all;
     if (by_path_.empty()) return all;
     for (std::size_t end = 1; end <= path.size(); ++end) {
@@ -20,7 +20,7 @@ std::vector<std::uint32_t> LookTable::find(std::string_view path) const {
     return all;
 }
 
-void LookTable::apply(RegionInfo& region) const {
+void AppearanceTable::apply(RegionInfo& region) const {
     for (const std::uint32_t i : find(region.path)) {
         const Look& look = looks_[i];
         if (look.color) region.color = *look.color;

@@ -11,12 +11,12 @@
 namespace csgrt {
 
 /// The receiver of the rows of a list's batches.
-class RowTaker {
+class RowReceiver {
 public:
-    explicit RowTaker(Fields fields, bool first_row = false) : fields_(fields), first_row_(first_row) {}
-    RowTaker(const RowTaker&) = delete;
-    RowTaker& operator=(const RowTaker&) = delete;
-    virtual ~RowTaker() = default;
+    explicit RowReceiver(Fields fields, bool first_row = false) : fields_(fields), first_row_(first_row) {}
+    RowReceiver(const RowReceiver&) = delete;
+    RowReceiver& operator=(const RowReceiver&) = delete;
+    virtual ~RowReceiver() = default;
 
     Fields fields() const { return fields_; }
     /// Whether it takes only the first row of each ray.
@@ -44,10 +44,10 @@ private:
 };
 
 /// Writes rows to the caller's arrays in the order of the rays.
-class RowSink final : public RowTaker {
+class RowCollector final : public RowReceiver {
 public:
     /// Empties the arrays. `rays`: the number of rays of the list. `rows` must outlive the object.
-    RowSink(Partitions& rows, Fields fields, std::uint64_t rays);
+    RowCollector(Partitions& rows, Fields fields, std::uint64_t rays);
 
     /// Copies the rows, or waits while too many rows are kept for which earlier rays are missing. The batch that all
     /// wait for never waits.
@@ -77,10 +77,10 @@ struct HitArrays {
 };
 
 /// Takes the first row of each ray.
-class HitSink final : public RowTaker {
+class HitCollector final : public RowReceiver {
 public:
     /// Sizes the arrays, which must outlive the object.
-    HitSink(const HitArrays& arrays, std::uint64_t rays);
+    HitCollector(const HitArrays& arrays, std::uint64_t rays);
 
     void put(const RowView& rows) override;
     bool has(std::uint64_t ray, const Partitions& rows, std::size_t other) const override;
@@ -90,12 +90,12 @@ private:
 };
 
 /// Takes the pixels of a slice: each ray is a row of pixels, and its direction has the length of a pixel.
-class PixelSink final : public RowTaker {
+class PixelCollector final : public RowReceiver {
 public:
     static constexpr std::int32_t nothing = -1, overlap = -2;
 
     /// Sizes the array, which must outlive the object.
-    PixelSink(Array<std::int32_t>& pixels, std::uint32_t width, std::uint64_t rays);
+    PixelCollector(Array<std::int32_t>& pixels, std::uint32_t width, std::uint64_t rays);
 
     void put(const RowView& rows) override;
     bool has(std::uint64_t ray, const Partitions& rows, std::size_t other) const override;

@@ -1,4 +1,4 @@
-#include "compile/flatten/pieces.hpp"
+#include "compile/flatten/solid_parts.hpp"
 
 #include <cmath>
 
@@ -35,17 +35,17 @@ struct Bend {
     Vec3 into, out;  ///< unit directions of the pipe at `from` and `to`
 };
 
-Piece bend_piece(const Bend& bend, double tube) {
+SolidPart bend_part(const Bend& bend, double tube) {
     return {Tor{bend.center, bend.axis, bend.radius, tube},
             {{-1 * bend.into, -dot(bend.into, bend.from)}, {bend.out, dot(bend.out, bend.to)}}};
 }
 
 class Collector {
 public:
-    void outer(Piece piece) { add(std::move(piece), outer_); }
-    void inner(Piece piece) { add(std::move(piece), inner_); }
+    void outer(SolidPart part) { add(std::move(part), outer_); }
+    void inner(SolidPart part) { add(std::move(part), inner_); }
 
-    Pieces take() {
+    SolidParts take() {
         FlatTree& tree = result_.tree;
         const auto united = [&](const std::vector<std::uint32_t>& numbers) {
             for (const std::uint32_t number : numbers) tree.nodes.push_back({Operator::leaf, 0, number});
@@ -59,16 +59,16 @@ public:
     }
 
 private:
-    void add(Piece piece, std::vector<std::uint32_t>& list) {
-        list.push_back(static_cast<std::uint32_t>(result_.pieces.size()));
-        result_.pieces.push_back(std::move(piece));
+    void add(SolidPart part, std::vector<std::uint32_t>& list) {
+        list.push_back(static_cast<std::uint32_t>(result_.parts.size()));
+        result_.parts.push_back(std::move(part));
     }
 
-    Pieces result_;
+    SolidParts result_;
     std::vector<std::uint32_t> outer_, inner_;
 };
 
-Pieces pieces_of_pipe(const Pipe& pipe) {
+SolidParts parts_of_pipe(const Pipe& pipe) {
     Collector collector;
     Vec3 at = pipe.points.front().position;  // the beginning of the straight part
     for (std::size_t i = 0; i + 1 < pipe.points.size(); ++i) {
@@ -94,15 +94,15 @@ Pieces pieces_of_pipe(const Pipe& pipe) {
             if (p.inner > 0 || q.inner > 0) collector.inner({round_cone(at, h, p.inner / 2, q.inner / 2), {}});
         }
         if (bend) {
-            collector.outer(bend_piece(*bend, q.outer / 2));
-            if (q.inner > 0) collector.inner(bend_piece(*bend, q.inner / 2));
+            collector.outer(bend_part(*bend, q.outer / 2));
+            if (q.inner > 0) collector.inner(bend_part(*bend, q.inner / 2));
         }
         at = bend ? bend->to : to;
     }
     return collector.take();
 }
 
-Pieces pieces_of_cline(const Cline& cline) {
+SolidParts parts_of_cline(const Cline& cline) {
     Collector collector;
     collector.outer({round_cone(cline.v, cline.h, cline.radius, cline.radius), {}});
     const double bore = cline.radius - cline.thickness;
@@ -111,7 +111,7 @@ Pieces pieces_of_cline(const Cline& cline) {
 }
 
 /// The surface of a concave arb's faces.
-Pieces pieces_of_concave(const Arb& arb) {
+SolidParts parts_of_concave(const Arb& arb) {
     Nmg surface;
     surface.vertices.assign(arb.vertices.begin(), arb.vertices.end());
     for (auto& outline : outlines_of(arb)) surface.faces.push_back({std::move(outline)});
@@ -122,10 +122,10 @@ Pieces pieces_of_concave(const Arb& arb) {
 
 }  // namespace
 
-Pieces pieces_of(const Shape& shape) {
-    if (const auto* arb = std::get_if<Arb>(&shape)) return pieces_of_concave(*arb);
-    if (const auto* pipe = std::get_if<Pipe>(&shape)) return pieces_of_pipe(*pipe);
-    if (const auto* cline = std::get_if<Cline>(&shape)) return pieces_of_cline(*cline);
+SolidParts parts_of(const Shape& shape) {
+    if (const auto* arb = std::get_if<Arb>(&shape)) return parts_of_concave(*arb);
+    if (const auto* pipe = std::get_if<Pipe>(&shape)) return parts_of_pipe(*pipe);
+    if (const auto* cline = std::get_if<Cline>(&shape)) return parts_of_cline(*cline);
     return {};
 }
 

@@ -67,34 +67,34 @@ Arb model_of(const ArbOf<count>& s) {
 }
 
 /// Makes the simple solid that becomes this very one. False: there is none.
-bool simplify(const Ell& solid, Sphere& friendly);
-bool simplify(const Tgc& solid, Cone& friendly);
-bool simplify(const Tgc& solid, Cylinder& friendly);
-bool simplify(const Arb& solid, UprightBox& friendly);
+bool simplify(const Ell& solid, Sphere& simple);
+bool simplify(const Tgc& solid, Cone& simple);
+bool simplify(const Tgc& solid, Cylinder& simple);
+bool simplify(const Arb& solid, UprightBox& simple);
 bool simplify(const Arb& solid, std::span<Vec3> vertices);
 template <std::size_t count>
-bool simplify(const Arb& solid, ArbOf<count>& friendly) {
-    return simplify(solid, std::span<Vec3>(friendly.vertices));
+bool simplify(const Arb& solid, ArbOf<count>& simple) {
+    return simplify(solid, std::span<Vec3>(simple.vertices));
 }
 
 namespace form {
 
 template <>
 inline constexpr auto of<Sphere> = Form{
-    friendly("sphere"),
+    simple("sphere"),
     required("center", &Sphere::center, lengths),
     required("radius", &Sphere::radius, length, positive()),
 };
 template <>
 inline constexpr auto of<Cylinder> = Form{
-    friendly("cylinder"),
+    simple("cylinder"),
     required("base", &Cylinder::base, lengths),
     required("height", &Cylinder::height, lengths, nonzero(), "From the middle of the base to that of the top."),
     required("radius", &Cylinder::radius, length, positive()),
 };
 template <>
 inline constexpr auto of<Cone> = Form{
-    friendly("cone"),
+    simple("cone"),
     required("base", &Cone::base, lengths),
     required("height", &Cone::height, lengths, nonzero()),
     required("radius", &Cone::radius, length, not_negative(), "Of the base. Not both may be 0."),
@@ -102,12 +102,12 @@ inline constexpr auto of<Cone> = Form{
 };
 template <>
 inline constexpr auto of<UprightBox> = Form{
-    friendly("box"),
+    simple("box"),
     required("low", &UprightBox::low, lengths),
     required("high", &UprightBox::high, lengths),
 };
 
-constexpr Head arb_heads[] = {friendly("arb4"), friendly("arb5"), friendly("arb6"), friendly("arb7")};
+constexpr Head arb_heads[] = {simple("arb4"), simple("arb5"), simple("arb6"), simple("arb7")};
 constexpr const char* arb_helps[] = {"A triangle, and the apex.", "A quadrilateral, and the apex.",
                                      "A quadrilateral 0 1 2 3, and the edge above it: 4 over 0 and 1, 5 over 2 and 3.",
                                      "As arb8; vertex 7 is vertex 4."};

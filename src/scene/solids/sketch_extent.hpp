@@ -9,6 +9,6 @@
 namespace csgrt {
 
 /// The least and the greatest gu u + gv v over all curves, from outside, to about 1e-15 of the terms.
-std::pair<long double, long double> reach_of(const std::vector<CurvePiece>& pieces, long double gu, long double gv);
+std::pair<long double, long double> extent_of(const std::vector<BezierCurve>& curves, long double gu, long double gv);
 
 }  // namespace csgrt

@@ -1,4 +1,4 @@
-#include "compile/looks.hpp"
+#include "compile/appearance.hpp"
 
 #include <algorithm>
 #include <array>
@@ -41,10 +41,10 @@ kernel::LightRecord light_record(const Light& light) {
     return record;
 }
 
-kernel::MaterialRecord material_of(const RegionInfo& info, double brightness, const Looks& looks) {
+kernel::MaterialRecord material_of(const RegionInfo& info, double brightness, const Appearance& appearance) {
     const Finish& f = info.finish;
-    const Vec3 color = looks.shaded(info.color);
-    const double ambient = looks.ambient;
+    const Vec3 color = appearance.shaded(info.color);
+    const double ambient = appearance.ambient;
     const auto to_float = [](double x) { return static_cast<float>(x); };
     kernel::MaterialRecord m{to_float(color.x),
                              to_float(color.y),
@@ -65,14 +65,14 @@ kernel::MaterialRecord material_of(const RegionInfo& info, double brightness, co
 
 /// Adds the lights of the regions that emit light, by BRL-CAD's rules. Returns the brightness of each region.
 std::vector<double> add_region_lights(std::span<const RegionInfo> regions, std::span<const RegionLight> shining,
-                                      Looks& looks, std::vector<Warning>& warnings) {
+                                      Appearance& appearance, std::vector<Warning>& warnings) {
     double brightest = 0;
     for (const RegionLight& of : shining) {
         const Emission& light = *regions[of.region].finish.light;
         if (!(light.fraction > 0)) brightest = std::max(brightest, intensity_of(light));
     }
     // The scale is BRL-CAD's: the brightest light and half of the ambient light together make white.
-    const double full = brightest * (1 + 0.5 * looks.ambient);
+    const double full = brightest * (1 + 0.5 * appearance.ambient);
     std::vector<double> brightness(regions.size());
     for (const RegionLight& of : shining) {
         const RegionInfo& region = regions[of.region];
@@ -87,7 +87,7 @@ std::vector<double> add_region_lights(std::span<const RegionInfo> regions, std::
         }
         Light found;
         found.position = 0.5 * (region.bounds.low + region.bounds.high);
-        found.color = looks.shaded(region.color);
+        found.color = appearance.shaded(region.color);
         found.intensity = bright;
         found.infinite = light.infinite;
         found.angle = light.angle;
@@ -96,7 +96,7 @@ std::vector<double> add_region_lights(std::span<const RegionInfo> regions, std::
         if (light.target) axis = *light.target - found.position;
         // The matrix of the first solid turns the beam, as in BRL-CAD, whatever direction was given.
         found.direction = narrow(transform_direction(of.matrix, wide(axis)));
-        looks.lights.push_back(light_record(found));
+        appearance.lights.push_back(light_record(found));
     }
     return brightness;
 }
@@ -113,29 +113,29 @@ SharedVector<kernel::DisplayBytes> display_bytes(bool are_display_values) {
 
 }  // namespace
 
-Looks looks_of(const SceneLooks& scene, std::span<const RegionInfo> regions, std::span<const RegionLight> shining,
-               bool display_shading, std::vector<Warning>& warnings) {
-    Looks looks;
-    looks.display_shading = display_shading;
+Appearance appearance_of(const SceneAppearance& scene, std::span<const RegionInfo> regions,
+                         std::span<const RegionLight> shining, bool display_shading, std::vector<Warning>& warnings) {
+    Appearance appearance;
+    appearance.display_shading = display_shading;
     // The tables are never destroyed: a thread may compile while the process ends.
     static const auto* const tables =
         new std::array<SharedVector<kernel::DisplayBytes>, 2>{display_bytes(false), display_bytes(true)};
-    looks.display = (*tables)[display_shading];
-    looks.ambient = scene.ambient;
-    const Vec3 background = looks.shaded(scene.background);
-    looks.background = {background.x, background.y, background.z};
+    appearance.display = (*tables)[display_shading];
+    appearance.ambient = scene.ambient;
+    const Vec3 background = appearance.shaded(scene.background);
+    appearance.background = {background.x, background.y, background.z};
     for (Light light : scene.lights) {
-        light.color = looks.shaded(light.color);
-        looks.lights.push_back(light_record(light));
+        light.color = appearance.shaded(light.color);
+        appearance.lights.push_back(light_record(light));
     }
-    const std::vector<double> brightness = add_region_lights(regions, shining, looks, warnings);
-    std::vector<kernel::MaterialRecord>& materials = looks.materials.own();
+    const std::vector<double> brightness = add_region_lights(regions, shining, appearance, warnings);
+    std::vector<kernel::MaterialRecord>& materials = appearance.materials.own();
     materials.resize(regions.size());
     constexpr std::size_t many = 4096;
     for_chunks(regions.size(), many, 0, [&](std::size_t first, std::size_t last, std::size_t) {
-        for (std::size_t i = first; i < last; ++i) materials[i] = material_of(regions[i], brightness[i], looks);
+        for (std::size_t i = first; i < last; ++i) materials[i] = material_of(regions[i], brightness[i], appearance);
     });
-    return looks;
+    return appearance;
 }
 
 }  // namespace csgrt

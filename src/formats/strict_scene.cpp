@@ -1,4 +1,4 @@
-#include "formats/mended.hpp"
+#include "formats/strict_scene.hpp"
 
 #include <algorithm>
 #include <cstdint>
@@ -29,7 +29,7 @@ bool is_of_unknown_type(const Object& object) {
 
 }  // namespace
 
-Scene mended(const Scene& scene) {
+Scene strict_scene(const Scene& scene) {
     Names names(scene);
     std::vector<Warning> warnings;
     validate(scene, names, {}, false, warnings);
@@ -47,10 +47,10 @@ Scene mended(const Scene& scene) {
         if (combination == nullptr) continue;
         for (std::size_t k = 0; k < combination->tree.nodes.size(); ++k) {
             if (names.child(i, k) != Names::left_out) continue;
-            TreeNode& leg = combination->tree.nodes[k];
-            if (names.find(leg.object) != Names::none) leg.object = hole;
-            leg.matrix = identity;
-            needed.insert(leg.object);
+            TreeNode& member = combination->tree.nodes[k];
+            if (names.find(member.object) != Names::none) member.object = hole;
+            member.matrix = identity;
+            needed.insert(member.object);
         }
     }
     std::vector<std::string> sorted(needed.begin(), needed.end());

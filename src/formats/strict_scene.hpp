@@ -7,6 +7,6 @@ namespace csgrt {
 
 /// The scene with an empty combination for everything that its top objects use and that is left out of them. Solids of
 /// unknown types stay.
-Scene mended(const Scene& scene);
+Scene strict_scene(const Scene& scene);
 
 }  // namespace csgrt

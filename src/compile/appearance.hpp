@@ -16,7 +16,7 @@ inline kernel::LightRecord light_at(const Vec3& position, const Vec3& color) {
 }
 
 /// The appearance that a scene gives all of its regions.
-struct SceneLooks {
+struct SceneAppearance {
     std::span<const Light> lights;
     double ambient;
     Vec3 background;
@@ -24,7 +24,7 @@ struct SceneLooks {
 
 /// The appearance of the scene and its regions, by BRL-CAD's rules for regions that emit light, `shining`. Such a
 /// region without a finite box gives no light; `warnings` say so.
-Looks looks_of(const SceneLooks& scene, std::span<const RegionInfo> regions, std::span<const RegionLight> shining,
-               bool display_shading, std::vector<Warning>& warnings);
+Appearance appearance_of(const SceneAppearance& scene, std::span<const RegionInfo> regions,
+                         std::span<const RegionLight> shining, bool display_shading, std::vector<Warning>& warnings);
 
 }  // namespace csgrt

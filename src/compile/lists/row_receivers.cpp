@@ -1,4 +1,4 @@
-#include "compile/lists/sink.hpp"
+#include "compile/lists/row_receivers.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -41,7 +41,7 @@ void add(Array<To>& to, To value) {
 
 }  // namespace
 
-RowSink::RowSink(Partitions& rows, Fields fields, std::uint64_t rays) : RowTaker(fields), answer_(rows) {
+RowCollector::RowCollector(Partitions& rows, Fields fields, std::uint64_t rays) : RowReceiver(fields), answer_(rows) {
     Partitions& a = rows;
     for (auto* ids : {&a.region_ids, &a.in_solids, &a.out_solids, &a.overlap_region_ids}) ids->resize(0);
     for (auto* reals : {&a.t_in, &a.t_out, &a.overlap_t_in, &a.overlap_t_out}) reals->resize(0);
@@ -55,7 +55,7 @@ RowSink::RowSink(Partitions& rows, Fields fields, std::uint64_t rays) : RowTaker
     add(a.overlap_region_splits, std::int64_t{0});
 }
 
-void RowSink::append(const RowView& rows) {
+void RowCollector::append(const RowView& rows) {
     const auto before = static_cast<std::int64_t>(answer_.region_ids.size());
     std::int64_t* const splits = answer_.ray_splits.data() + rows.first + 1;
     in_parts(rows.rays(), [&](std::size_t i, std::size_t end) {
@@ -86,7 +86,7 @@ void RowSink::append(const RowView& rows) {
     }
 }
 
-void RowSink::put(const RowView& rows) {
+void RowCollector::put(const RowView& rows) {
     std::unique_lock lock(mutex_);
     moved_.wait(lock, [&] { return is_stopped_ || rows.first == next_ || kept_bytes_ < most_kept; });
     if (rows.first != next_) {
@@ -103,18 +103,18 @@ void RowSink::put(const RowView& rows) {
     moved_.notify_all();
 }
 
-void RowSink::stop() {
+void RowCollector::stop() {
     const std::lock_guard lock(mutex_);
     is_stopped_ = true;
     moved_.notify_all();
 }
 
-bool RowSink::has(std::uint64_t ray, const Partitions& rows, std::size_t other) const {
+bool RowCollector::has(std::uint64_t ray, const Partitions& rows, std::size_t other) const {
     return same_rows(answer_, ray, rows, other);
 }
 
-HitSink::HitSink(const HitArrays& arrays, std::uint64_t rays)
-    : RowTaker({.solids = arrays.solids != nullptr, .normals = arrays.normals != nullptr, .overlaps = false}, true),
+HitCollector::HitCollector(const HitArrays& arrays, std::uint64_t rays)
+    : RowReceiver({.solids = arrays.solids != nullptr, .normals = arrays.normals != nullptr, .overlaps = false}, true),
       to_(arrays) {
     const auto fit = [rays](auto* array) {
         if (array) array->resize(rays);
@@ -126,7 +126,7 @@ HitSink::HitSink(const HitArrays& arrays, std::uint64_t rays)
     fit(to_.hits);
 }
 
-void HitSink::put(const RowView& rows) {
+void HitCollector::put(const RowView& rows) {
     in_parts(rows.rays(), [&](std::size_t i, std::size_t end) {
         for (; i < end; ++i) {
             const std::size_t ray = rows.first + i, row = rows.places[i].segments;
@@ -140,7 +140,7 @@ void HitSink::put(const RowView& rows) {
     });
 }
 
-bool HitSink::has(std::uint64_t ray, const Partitions& rows, std::size_t other) const {
+bool HitCollector::has(std::uint64_t ray, const Partitions& rows, std::size_t other) const {
     const auto row = static_cast<std::size_t>(rows.ray_splits[other]);
     const bool is_hit = rows.ray_splits[other + 1] > rows.ray_splits[other];
     if (to_.hits && (*to_.hits)[ray] != is_hit) return false;
@@ -150,20 +150,20 @@ bool HitSink::has(std::uint64_t ray, const Partitions& rows, std::size_t other) 
                        (!to_.normals || same_bits((*to_.normals)[ray], rows.in_normals[row])));
 }
 
-PixelSink::PixelSink(Array<std::int32_t>& pixels, std::uint32_t width, std::uint64_t rays)
-    : RowTaker({.solids = false, .normals = false, .overlaps = true}), pixels_(pixels), width_(width) {
+PixelCollector::PixelCollector(Array<std::int32_t>& pixels, std::uint32_t width, std::uint64_t rays)
+    : RowReceiver({.solids = false, .normals = false, .overlaps = true}), pixels_(pixels), width_(width) {
     pixels.resize(rays * width);
 }
 
 /// Fills the pixels whose middles lie in [in, out).
-void PixelSink::fill(std::int32_t* line, double in, double out, std::int32_t value) const {
+void PixelCollector::fill(std::int32_t* line, double in, double out, std::int32_t value) const {
     const auto pixel = [&](double t) {
         return static_cast<std::ptrdiff_t>(std::clamp(std::ceil(t - 0.5), 0.0, static_cast<double>(width_)));
     };
     std::fill(line + pixel(in), line + std::max(pixel(in), pixel(out)), value);
 }
 
-void PixelSink::put(const RowView& rows) {
+void PixelCollector::put(const RowView& rows) {
     std::size_t overlap_row = 0;
     for (std::size_t i = 0; i < rows.rays(); ++i) {
         std::int32_t* const line = pixels_.data() + (rows.first + i) * width_;
@@ -175,7 +175,7 @@ void PixelSink::put(const RowView& rows) {
     }
 }
 
-bool PixelSink::has(std::uint64_t ray, const Partitions& rows, std::size_t other) const {
+bool PixelCollector::has(std::uint64_t ray, const Partitions& rows, std::size_t other) const {
     std::vector<std::int32_t> line(width_, nothing);
     for (auto row = rows.ray_splits[other]; row < rows.ray_splits[other + 1]; ++row)
         fill(line.data(), rows.t_in.data()[row], rows.t_out.data()[row], rows.region_ids.data()[row]);

@@ -12,9 +12,9 @@
 namespace csgrt {
 
 /// Finds the appearances of regions by path. It refers to the scene's list.
-class LookTable {
+class AppearanceTable {
 public:
-    explicit LookTable(const std::vector<Look>& looks);
+    explicit AppearanceTable(const std::vector<Look>& looks);
     /// The numbers of the entries that concern a region, ascending.
     std::vector<std::uint32_t> find(std::string_view path) const;
     /// Applies to a region, whose path is known, the entries that concern it.

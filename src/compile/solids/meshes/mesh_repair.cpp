@@ -1,4 +1,4 @@
-#include "compile/solids/meshes/mesh_faults.hpp"
+#include "compile/solids/meshes/mesh_repair.hpp"
 
 #include <algorithm>
 #include <array>
@@ -149,12 +149,12 @@ struct Counts {
 };
 
 /// Repairs a bot's faces, on the way to a closed surface.
-class Mender {
+class MeshRepair {
 public:
-    explicit Mender(const Bot& bot);
+    explicit MeshRepair(const Bot& bot);
 
-    MendedMesh volume();
-    MendedMesh plates();
+    RepairedMesh volume();
+    RepairedMesh plates();
 
 private:
     Corners points_of(std::uint32_t face) const {
@@ -167,17 +167,17 @@ private:
     std::vector<std::vector<std::uint32_t>> points_on(const std::vector<Edges::Edge>& edges);
     bool split(const Edges& edges);
     Edges joined();
-    MendedMesh surface(const Edges& edges);
+    RepairedMesh surface(const Edges& edges);
     std::size_t turn_over(const Edges& edges, bool apply);
     bool winds_outward() const;
     std::vector<std::string> common_notes() const;
-    MendedMesh finish(std::vector<std::string> notes) const;
+    RepairedMesh finish(std::vector<std::string> notes) const;
 
     const Bot& bot_;
     std::vector<std::uint32_t> point_;  ///< of each vertex
     double reach_ = 0, size_ = 0;
     std::vector<Corners> faces_;       ///< points
-    std::vector<std::uint32_t> from_;  ///< as in MendedMesh
+    std::vector<std::uint32_t> from_;  ///< as in RepairedMesh
     /// One entry a face, while they are chosen: how often it is given, and how often wound the other way; whether it
     /// may be left out.
     std::vector<std::uint32_t> copies_, turned_copies_;
@@ -187,7 +187,7 @@ private:
     Counts counts_;
 };
 
-Mender::Mender(const Bot& bot) : bot_(bot), point_(first_at_point(bot.vertices)) {
+MeshRepair::MeshRepair(const Bot& bot) : bot_(bot), point_(first_at_point(bot.vertices)) {
     Vec3 low = bot.vertices[bot.faces[0][0]], high = low;
     for (const Corners& face : bot.faces)
         for (const std::uint32_t corner : face) {
@@ -200,7 +200,7 @@ Mender::Mender(const Bot& bot) : bot_(bot), point_(first_at_point(bot.vertices))
 }
 
 /// Is the face flat, as far as the rounding of its vertices tells? False for a face with two equal points.
-bool Mender::is_flat(const Corners& face) const {
+bool MeshRepair::is_flat(const Corners& face) const {
     const Vec3 &a = bot_.vertices[face[0]], &b = bot_.vertices[face[1]], &c = bot_.vertices[face[2]];
     const Vec3 u = b - a, v = c - a, w = c - b, n = cross(u, v);
     const double longest = std::max({dot(u, u), dot(v, v), dot(w, w)});
@@ -215,7 +215,7 @@ bool even_turn(const Corners& a, const Corners& b) {
 bool has_two_equal(const Corners& face) { return face[0] == face[1] || face[1] == face[2] || face[2] == face[0]; }
 
 /// Takes each face once, without those with two equal points.
-void Mender::take_faces() {
+void MeshRepair::take_faces() {
     FaceNumbers number_of;
     faces_.reserve(bot_.faces.size());
     from_.reserve(bot_.faces.size());
@@ -243,7 +243,7 @@ void Mender::take_faces() {
 
 /// Decides which of the optional faces count, so that edges have an even number of faces. An edge with one undecided
 /// face decides it. An edge that has only one face in all decides nothing.
-void Mender::choose(Copies rule) {
+void MeshRepair::choose(Copies rule) {
     if (!any_optional_) return;
     const Edges edges(faces_);
     enum : std::uint8_t { unknown, out, in };
@@ -311,7 +311,7 @@ void Mender::choose(Copies rule) {
 
 /// Lists for each edge the ends of `edges` in its middle, from low to high. Edges that lie on one another, all with the
 /// same points, are not searched to the end: this would take the square of their number.
-std::vector<std::vector<std::uint32_t>> Mender::points_on(const std::vector<Edges::Edge>& edges) {
+std::vector<std::vector<std::uint32_t>> MeshRepair::points_on(const std::vector<Edges::Edge>& edges) {
     // The distance that rounding to single precision makes.
     const double near = std::min(0x1p-23 * reach_, 1e-6 * size_);
     const std::vector<Vec3>& v = bot_.vertices;
@@ -330,16 +330,16 @@ std::vector<std::vector<std::uint32_t>> Mender::points_on(const std::vector<Edge
 
     std::vector<std::vector<std::uint32_t>> found(edges.size());
     std::vector<std::pair<double, std::uint32_t>> on;
-    const std::size_t most_looks = 10'000'000 + 100 * edges.size();
-    std::size_t looks = 0;
+    const std::size_t most_tests = 10'000'000 + 100 * edges.size();
+    std::size_t tests = 0;
     for (std::size_t i = 0; i < edges.size(); ++i) {
-        counts_.not_looked_at = looks > most_looks ? edges.size() - i : 0;
+        counts_.not_looked_at = tests > most_tests ? edges.size() - i : 0;
         if (counts_.not_looked_at > 0) break;
         const Vec3 &a = v[edges[i].low], &b = v[edges[i].high], ab = b - a;
         const double whole = length(ab);
         on.clear();
         const auto try_point = [&](std::uint32_t p) {
-            ++looks;
+            ++tests;
             if (p == edges[i].low || p == edges[i].high) return;
             const Vec3 ap = v[p] - a;
             const double along = dot(ap, ab) / whole;
@@ -403,7 +403,7 @@ void cut(Corners face, Cuts on, std::vector<Corners>& parts) {
 }
 
 /// Cuts faces at the points in the middle of their open edges, where this leaves none of their parts open.
-bool Mender::split(const Edges& edges) {
+bool MeshRepair::split(const Edges& edges) {
     std::vector<Edges::Edge> open;
     std::vector<std::uint32_t> number(edges.all.size(), none);
     for (std::uint32_t e = 0; e < edges.all.size(); ++e) {
@@ -459,7 +459,7 @@ bool Mender::split(const Edges& edges) {
 
 /// Counts the faces that wind against most of the faces to which edges of two faces join them. `apply`: turns them
 /// over.
-std::size_t Mender::turn_over(const Edges& edges, bool apply) {
+std::size_t MeshRepair::turn_over(const Edges& edges, bool apply) {
     const Lists at(edges.all.size(), [&](const auto& add) {
         for (std::uint32_t f = 0; f < faces_.size(); ++f)
             for (const std::uint32_t e : edges.of_face[f])
@@ -500,7 +500,7 @@ std::size_t Mender::turn_over(const Edges& edges, bool apply) {
 }
 
 /// Does a closed surface that winds one way wind outward?
-bool Mender::winds_outward() const {
+bool MeshRepair::winds_outward() const {
     const Vec3& middle = bot_.vertices[faces_[0][0]];
     double volume = 0;
     for (const Corners& face : faces_)
@@ -509,27 +509,27 @@ bool Mender::winds_outward() const {
     return volume > 0;
 }
 
-MendedMesh Mender::finish(std::vector<std::string> notes) const {
+RepairedMesh MeshRepair::finish(std::vector<std::string> notes) const {
     const bool as_given = counts_.turned == 0 && counts_.split == 0 && faces_.size() == bot_.faces.size();
     return {{bot_.vertices, as_given ? bot_.faces : faces_}, from_, true, false, std::move(notes)};
 }
 
 /// Makes the edges, after faces are cut where this closes some.
-Edges Mender::joined() {
+Edges MeshRepair::joined() {
     Edges edges(faces_);
     has_gaps_ = edges.open > 0;
     if (has_gaps_ && split(edges)) edges = Edges(faces_);
     return edges;
 }
 
-MendedMesh Mender::volume() {
+RepairedMesh MeshRepair::volume() {
     take_faces();
     if (!any_optional_) return surface(joined());
     // The best rule is the first that leaves the fewest edges open.
-    std::optional<Mender> best;
+    std::optional<MeshRepair> best;
     std::optional<Edges> best_edges;
     for (const Copies rule : {Copies::count_once, Copies::vanish_as_walls, Copies::vanish_as_sheets}) {
-        Mender next = *this;
+        MeshRepair next = *this;
         next.choose(rule);
         Edges edges = next.joined();
         if (best && edges.open >= best_edges->open) continue;
@@ -540,7 +540,7 @@ MendedMesh Mender::volume() {
     return best->surface(*best_edges);
 }
 
-MendedMesh Mender::surface(const Edges& edges) {
+RepairedMesh MeshRepair::surface(const Edges& edges) {
     const bool is_closed = edges.open == 0, is_oriented = bot_.orientation != Bot::Orientation::unoriented;
     const std::size_t against = edges.winds_one_way ? 0 : turn_over(edges, is_oriented && !is_closed);
     if (is_oriented && !is_closed) counts_.turned = against;
@@ -570,13 +570,13 @@ MendedMesh Mender::surface(const Edges& edges) {
     if (edges.crowded > 0)
         notes.push_back(counted(edges.crowded, "edge has", "edges have") +
                         " more than two faces; what is inside is told by parity");
-    MendedMesh mended = finish(std::move(notes));
-    mended.is_closed = is_closed;
-    mended.told_by_facing = is_oriented && has_gaps_ && (!is_closed || lies);
-    return mended;
+    RepairedMesh repaired = finish(std::move(notes));
+    repaired.is_closed = is_closed;
+    repaired.decided_by_facing = is_oriented && has_gaps_ && (!is_closed || lies);
+    return repaired;
 }
 
-MendedMesh Mender::plates() {
+RepairedMesh MeshRepair::plates() {
     FaceNumbers number_of;
     std::vector<std::uint32_t> last,
         before;  // kept faces: for each number the last face, and for each face the previous one
@@ -606,7 +606,7 @@ MendedMesh Mender::plates() {
 }
 
 /// Notes on faces that do not count, in any mode.
-std::vector<std::string> Mender::common_notes() const {
+std::vector<std::string> MeshRepair::common_notes() const {
     std::vector<std::string> notes;
     if (counts_.repeated > 0)
         notes.push_back(
@@ -623,9 +623,9 @@ std::vector<std::string> Mender::common_notes() const {
 
 }  // namespace
 
-MendedMesh mend(const Bot& bot) {
-    Mender mender(bot);
-    return bot.mode == Bot::Mode::volume ? mender.volume() : mender.plates();
+RepairedMesh repair(const Bot& bot) {
+    MeshRepair mesh_repair(bot);
+    return bot.mode == Bot::Mode::volume ? mesh_repair.volume() : mesh_repair.plates();
 }
 
 }  // namespace csgrt

@@ -34,17 +34,16 @@
 
 namespace csgrt {
 
-struct MendedMesh {
+struct RepairedMesh {
     Triangles mesh;
     std::vector<std::uint32_t> from;  ///< one a face: the bot's face that it is, or is a part of
     bool is_closed = true;            ///< no edge is open; has no meaning for plates
-    bool told_by_facing = false;     ///< the inside is decided by the way that the faces wind, as the bot says; else by
-                                     ///< parity
-    std::vector<std::string> notes;  ///< the faults, with counts; each makes a sentence with the bot's name
+    bool decided_by_facing = false;   ///< the inside is decided by the way that faces wind; else by parity
+    std::vector<std::string> notes;   ///< the faults, with counts; each makes a sentence with the bot's name
 };
 
 /// Repairs a bot. Expected time is proportional to the number of faces without open edges; else n log n for usual
 /// meshes.
-MendedMesh mend(const Bot& bot);
+RepairedMesh repair(const Bot& bot);
 
 }  // namespace csgrt

@@ -1,4 +1,4 @@
-#include "scene/solids/sketch_reach.hpp"
+#include "scene/solids/sketch_extent.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -44,28 +44,28 @@ void raise(long double& most, const Values& curve, long double slack, int depth)
     raise(most, right, slack, depth + 1);
 }
 
-long double greatest(const std::vector<CurvePiece>& pieces, long double gu, long double gv) {
+long double greatest(const std::vector<BezierCurve>& curves, long double gu, long double gv) {
     long double most = -std::numeric_limits<long double>::infinity(), size = 0;
-    for (const CurvePiece& piece : pieces)
-        for (const CurvePoint& p : piece) size = std::max({size, std::fabs(gu * p.u), std::fabs(gv * p.v)});
-    for (const CurvePiece& piece : pieces)
-        for (const std::size_t end : {std::size_t{0}, piece.size() - 1})
-            most = std::max(most, gu * piece[end].u + gv * piece[end].v);
-    for (const CurvePiece& piece : pieces) {
-        Values curve;
-        for (const CurvePoint& p : piece) {
-            curve.value.push_back((gu * p.u + gv * p.v) * p.weight);
-            curve.weight.push_back(p.weight);
+    for (const BezierCurve& curve : curves)
+        for (const CurvePoint& p : curve) size = std::max({size, std::fabs(gu * p.u), std::fabs(gv * p.v)});
+    for (const BezierCurve& curve : curves)
+        for (const std::size_t end : {std::size_t{0}, curve.size() - 1})
+            most = std::max(most, gu * curve[end].u + gv * curve[end].v);
+    for (const BezierCurve& curve : curves) {
+        Values values;
+        for (const CurvePoint& p : curve) {
+            values.value.push_back((gu * p.u + gv * p.v) * p.weight);
+            values.weight.push_back(p.weight);
         }
-        raise(most, curve, precision * size, 0);
+        raise(most, values, precision * size, 0);
     }
     return most + precision * size;
 }
 
 }  // namespace
 
-std::pair<long double, long double> reach_of(const std::vector<CurvePiece>& pieces, long double gu, long double gv) {
-    return {-greatest(pieces, -gu, -gv), greatest(pieces, gu, gv)};
+std::pair<long double, long double> extent_of(const std::vector<BezierCurve>& curves, long double gu, long double gv) {
+    return {-greatest(curves, -gu, -gv), greatest(curves, gu, gv)};
 }
 
 }  // namespace csgrt
