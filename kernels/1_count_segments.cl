@@ -38,7 +38,7 @@ __kernel void find_candidates(__global const Frame* frame, __global const BvhNod
 }
 
 static void intersect_candidate(__global const Frame* frame, Geometry g, __global const RayRecord* rays,
-                                __global const u32* listed, __global Candidate* candidate, __global End* segment) {
+                                __global const u32* listed, __global Candidate* candidate, __global Boundary* segment) {
     const Candidate c = *candidate;
     SolidRecord solid;
     ray3 r, own;
@@ -62,7 +62,7 @@ static void intersect_candidate(__global const Frame* frame, Geometry g, __globa
 // again. Candidates of more segments are too rare to be worth the memory.
 __kernel void count_segments(__global const Frame* frame, GEOMETRY_ARGS, __global const RayRecord* rays,
                              __global const u32* listed, __global const CandidateCount* places,
-                             __global Candidate* candidates, __global End* found) {
+                             __global Candidate* candidates, __global Boundary* found) {
     const u32 id = (u32)get_global_id(0);
     if (id < candidates_of(frame, places))
         intersect_candidate(frame, GEOMETRY, rays, listed, candidates + id, found + 2 * (size_t)id);

@@ -98,7 +98,7 @@ typedef struct {
     u32 ray[PACKET];   // a ray's index in the batch
     u32 next[PACKET];  // its next candidate
     __global Candidate* candidates;
-    __global End* found;
+    __global Boundary* found;
 } packet_list;
 
 // Makes a solid a candidate of the active rays.
@@ -132,7 +132,7 @@ static void list_solid(packet_list* list, Geometry g, u32 index, u32 active_mask
 __kernel void list_packet_candidates(__global const Frame* frame, GEOMETRY_ARGS, __global const BvhNode* nodes,
                                      __global const TileNode* lists, __global const RayRecord* rays,
                                      __global const u32* listed, __global const CandidateCount* places,
-                                     __global Candidate* candidates, __global End* found) {
+                                     __global Candidate* candidates, __global Boundary* found) {
     const u32 id = (u32)get_global_id(0) * PACKET;
     const Geometry g = GEOMETRY;
     ray_packet p;

@@ -25,8 +25,8 @@ __kernel void count_in_faces(__global const Frame* frame, GEOMETRY_ARGS, __globa
 // Runs after store_segments.
 __kernel void store_in_faces(__global const Frame* frame, GEOMETRY_ARGS, __global const RayRecord* rays,
                              __global const u32* listed, __global const CandidateCount* places,
-                             __global const Candidate* candidates, __global const RayCount* offsets, __global End* ends,
-                             __global u32* bits) {
+                             __global const Candidate* candidates, __global const RayCount* offsets,
+                             __global Boundary* boundaries, __global u32* bits) {
     const u32 id = (u32)get_global_id(0);
     const Geometry g = GEOMETRY;
     Candidate c;
@@ -38,6 +38,6 @@ __kernel void store_in_faces(__global const Frame* frame, GEOMETRY_ARGS, __globa
     c = candidates[id];
     if (!(c.count & IN_SOME_FACE) || !ray_of(frame, rays, number_of(frame, listed, c.ray), &r, &wanted)) return;
     base = 2 * ((size_t)offsets[c.ray].segments + c.before);
-    collect(g, g.solids[c.solid], c.solid, r, wanted.t_min, ends + base);
+    collect(g, g.solids[c.solid], c.solid, r, wanted.t_min, boundaries + base);
     for (i = 0; i < 2 * (c.count & ~IN_SOME_FACE); ++i) bits[base + i] = c.ray;
 }

@@ -1,5 +1,5 @@
-// Kernel 2: stores the two boundaries of each segment in the ray's part of `ends`. A work-item is a candidate, as in
-// kernel 1: it copies a candidate's only segment, which kernel 1 kept, and intersects the solid again if there are
+// Kernel 2: stores the two boundaries of each segment in the ray's part of `boundaries`. A work-item is a candidate, as
+// in kernel 1: it copies a candidate's only segment, which kernel 1 kept, and intersects the solid again if there are
 // several.
 //
 //   boundaries of a ray:   in out | in out | in out ...      by ascending solid, then by distance
@@ -12,8 +12,8 @@
 #include "geometry/collect.h"
 
 static void store(__global const Frame* frame, Geometry g, __global const RayRecord* rays, __global const u32* listed,
-                  Candidate c, __global const End* found, __global const RayCount* offsets, __global End* ends,
-                  __global u32* bits) {
+                  Candidate c, __global const Boundary* found, __global const RayCount* offsets,
+                  __global Boundary* boundaries, __global u32* bits) {
     const size_t base = 2 * ((size_t)offsets[c.ray].segments + c.before);
     u32 i;
     if (c.count == 0 || c.count & IN_SOME_FACE) return;
@@ -23,21 +23,21 @@ static void store(__global const Frame* frame, Geometry g, __global const RayRec
         ray_range wanted;
         u32 near = 0;  // the ray's range does not begin within the solid
         if (!ray_of(frame, rays, number_of(frame, listed, c.ray), &r, &wanted)) return;
-        collect_as_it_is(g, g.solids[c.solid], c.solid, r, wanted.t_min, ends + base, &near);
+        collect_as_it_is(g, g.solids[c.solid], c.solid, r, wanted.t_min, boundaries + base, &near);
     } else
 #endif
     {
-        ends[base] = found[0];
-        ends[base + 1] = found[1];
+        boundaries[base] = found[0];
+        boundaries[base + 1] = found[1];
     }
     for (i = 0; i < 2 * c.count; ++i) bits[base + i] = c.ray;
 }
 
 __kernel void store_segments(__global const Frame* frame, GEOMETRY_ARGS, __global const RayRecord* rays,
                              __global const u32* listed, __global const CandidateCount* places,
-                             __global const Candidate* candidates, __global const End* found,
-                             __global const RayCount* offsets, __global End* ends, __global u32* bits) {
+                             __global const Candidate* candidates, __global const Boundary* found,
+                             __global const RayCount* offsets, __global Boundary* boundaries, __global u32* bits) {
     const u32 id = (u32)get_global_id(0);
     if (segments_fit(frame, offsets) && id < candidates_of(frame, places))
-        store(frame, GEOMETRY, rays, listed, candidates[id], found + 2 * (size_t)id, offsets, ends, bits);
+        store(frame, GEOMETRY, rays, listed, candidates[id], found + 2 * (size_t)id, offsets, boundaries, bits);
 }

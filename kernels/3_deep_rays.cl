@@ -2,12 +2,12 @@
 //
 //   sort blocks -> merge, merge, ... -> sweep, sweep, ...
 //
-// The boundaries are sorted as order_ends sorts them: in blocks, which are merged two by two. The order stands in the
-// nodes: in `next`, or in `in_end` before the other merges. Then one work-item a ray passes the events from front to
-// back. Partitions and their nodes are the same as weave's. In place of the partitions' bits, the sweep keeps a count
-// of each solid's open segments and a status tree of the regions (boolean/status_tree.h). Both change by a few words
-// where a solid begins or ceases to cover. A launch passes a limited number of boundaries, so that it is short, and the
-// next launch goes on.
+// The boundaries are sorted as order_boundaries sorts them: in blocks, which are merged two by two. The order stands in
+// the nodes: in `next`, or in `in_boundary` before the other merges. Then one work-item a ray passes the events from
+// front to back. Partitions and their nodes are the same as weave's. In place of the partitions' bits, the sweep keeps
+// a count of each solid's open segments and a status tree of the regions (boolean/status_tree.h). Both change by a few
+// words where a solid begins or ceases to cover. A launch passes a limited number of boundaries, so that it is short,
+// and the next launch goes on.
 #include "traversal/camera.h"
 #include "boolean/status_tree.h"
 #include "geometry/beyond.h"
@@ -35,40 +35,40 @@ static u32 deep_ray_of(__global const DeepRay* deep, u32 count, u32 block) {
 
 // A block of a deep ray's order: its boundaries have the positions from `first` on.
 typedef struct {
-    __global const End* ends;       // of the whole ray
-    __global PartitionNode* nodes;  // of the whole ray
+    __global const Boundary* boundaries;  // of the whole ray
+    __global PartitionNode* nodes;        // of the whole ray
     u32 ends_count, first;
 } deep_block;
 
 static deep_block block_at(__global const DeepRay* deep, u32 count, u32 id, __global const RayCount* offsets,
-                           __global const End* all_ends, __global PartitionNode* all_nodes) {
+                           __global const Boundary* all_boundaries, __global PartitionNode* all_nodes) {
     const DeepRay ray = deep[deep_ray_of(deep, count, id)];
     const RayCount offset = offsets[ray.ray];
     deep_block b;
-    b.ends = all_ends + 2 * (size_t)offset.segments;
+    b.boundaries = all_boundaries + 2 * (size_t)offset.segments;
     b.nodes = all_nodes + 2 * (size_t)offset.segments;
     b.ends_count = 2 * (offsets[ray.ray + 1].segments - offset.segments);
     b.first = DEEP_BLOCK * (id - ray.block);
     return b;
 }
 
-static int ends_before(__global const End* ends, u32 a, u32 b) {
-    const real t_a = ends[a].t, t_b = ends[b].t;
+static int ends_before(__global const Boundary* boundaries, u32 a, u32 b) {
+    const real t_a = boundaries[a].t, t_b = boundaries[b].t;
     return t_a < t_b || (t_a == t_b && a < b);
 }
 
 // Sorts one block a work-item.
 __kernel void sort_deep_blocks(__global const DeepRay* deep, u32 count, u32 blocks, __global const RayCount* offsets,
-                               __global const End* all_ends, __global PartitionNode* all_nodes, u32 field) {
+                               __global const Boundary* all_boundaries, __global PartitionNode* all_nodes, u32 field) {
     const u32 id = (u32)get_global_id(0);
     u32 order[DEEP_BLOCK], k, size;
     deep_block b;
     if (id >= blocks) return;
-    b = block_at(deep, count, id, offsets, all_ends, all_nodes);
+    b = block_at(deep, count, id, offsets, all_boundaries, all_nodes);
     size = b.ends_count - b.first < DEEP_BLOCK ? b.ends_count - b.first : DEEP_BLOCK;
     for (k = 0; k < size; ++k) {
         u32 place = k;
-        for (; place > 0 && ends_before(b.ends, b.first + k, order[place - 1]); --place)
+        for (; place > 0 && ends_before(b.boundaries, b.first + k, order[place - 1]); --place)
             order[place] = order[place - 1];
         order[place] = b.first + k;
     }
@@ -78,12 +78,13 @@ __kernel void sort_deep_blocks(__global const DeepRay* deep, u32 count, u32 bloc
 // Merges runs of `run` boundaries, two by two. A work-item makes one block of the result, whose boundaries come from
 // both runs. How many come from the left run is found by bisection.
 __kernel void merge_deep_runs(__global const DeepRay* deep, u32 count, u32 blocks, __global const RayCount* offsets,
-                              __global const End* all_ends, __global PartitionNode* all_nodes, u32 field, u32 run) {
+                              __global const Boundary* all_boundaries, __global PartitionNode* all_nodes, u32 field,
+                              u32 run) {
     const u32 id = (u32)get_global_id(0), to = field == FIELD_NEXT ? FIELD_IN_END : FIELD_NEXT;
     u32 place, last, left, left_end, right, right_end, low, high, before;
     deep_block b;
     if (id >= blocks) return;
-    b = block_at(deep, count, id, offsets, all_ends, all_nodes);
+    b = block_at(deep, count, id, offsets, all_boundaries, all_nodes);
     place = b.first;
     last = place + DEEP_BLOCK < b.ends_count ? place + DEEP_BLOCK : b.ends_count;
     left = place - place % (2 * run);
@@ -94,7 +95,7 @@ __kernel void merge_deep_runs(__global const DeepRay* deep, u32 count, u32 block
     high = before < left_end - left ? before : left_end - left;
     while (low < high) {
         const u32 middle = (low + high) >> 1;
-        if (ends_before(b.ends, *in_order(b.nodes, field, left + middle),
+        if (ends_before(b.boundaries, *in_order(b.nodes, field, left + middle),
                         *in_order(b.nodes, field, right + before - middle - 1))) {
             low = middle + 1;
         } else {
@@ -106,7 +107,7 @@ __kernel void merge_deep_runs(__global const DeepRay* deep, u32 count, u32 block
     for (; place < last; ++place) {
         int takes_left = right == right_end;
         if (left < left_end && right < right_end)
-            takes_left = ends_before(b.ends, *in_order(b.nodes, field, left), *in_order(b.nodes, field, right));
+            takes_left = ends_before(b.boundaries, *in_order(b.nodes, field, left), *in_order(b.nodes, field, right));
         *in_order(b.nodes, to, place) = *in_order(b.nodes, field, takes_left ? left++ : right++);
     }
 }
@@ -158,10 +159,11 @@ static u32 deep_owner(status_tree tree, __global const u32* ranks, __global cons
 }
 
 // Starts a deep ray before its first event: no segment is open.
-static u32 start_deep_ray(__global const End* ends, u32 count, u32 beyond, __global DeepSegment* of_segment) {
+static u32 start_deep_ray(__global const Boundary* boundaries, u32 count, u32 beyond,
+                          __global DeepSegment* of_segment) {
     u32 i, side, first = 0, solid = NONE, marked = 0;
     for (i = 0; i < count; ++i) {
-        const End end = ends[2 * i];
+        const Boundary end = boundaries[2 * i];
         DeepSegment s;
         if (end.solid != solid) {
             first = i;
@@ -177,24 +179,24 @@ static u32 start_deep_ray(__global const End* ends, u32 count, u32 beyond, __glo
 }
 
 // Passes over the boundaries of the next event, from swept.at on. Their segments will change sides at once.
-static void find_event(DeepRay* swept, u32 end_count, real tolerance, __global End* ends,
+static void find_event(DeepRay* swept, u32 boundary_count, real tolerance, __global Boundary* boundaries,
                        __global const PartitionNode* list, __global DeepSegment* of_segment) {
     u32 at = swept->at, e = list[at].next, i;
-    real t_e = ends[e].t;
+    real t_e = boundaries[e].t;
     const real t = t_e;
     do {
         of_segment[e >> 1].is_open ^= 1u;
-        if (++at == end_count) break;
+        if (++at == boundary_count) break;
         e = list[at].next;
-        t_e = ends[e].t;
+        t_e = boundaries[e].t;
     } while (t_e == t || t_e - t <= tolerance);
     swept->event = swept->at;
-    swept->in_end = swept->out_end = NONE;
+    swept->in_boundary = swept->out_boundary = NONE;
     for (i = swept->event; i < at; ++i) {
         const u32 ended = list[i].next, is_open = of_segment[ended >> 1].is_open;
-        if (i != swept->event) ends[ended].t = t;
-        if (!(ended & 1u) && (is_open & 1u) && swept->in_end == NONE) swept->in_end = ended;
-        if ((ended & 1u) && is_open == 2u && swept->out_end == NONE) swept->out_end = ended;
+        if (i != swept->event) boundaries[ended].t = t;
+        if (!(ended & 1u) && (is_open & 1u) && swept->in_boundary == NONE) swept->in_boundary = ended;
+        if ((ended & 1u) && is_open == 2u && swept->out_boundary == NONE) swept->out_boundary = ended;
     }
     swept->at = at;
 }
@@ -204,31 +206,32 @@ static void find_event(DeepRay* swept, u32 end_count, real tolerance, __global E
 // a ray is done, its trees are clear again for the next ray.
 __kernel void sweep_deep_rays(__global const Frame* frame, __global const RayRecord* rays, __global const u32* listed,
                               __global DeepRay* deep, u32 first_ray, u32 first_segment, u32 count,
-                              __global const RayCount* offsets, __global End* all_ends,
+                              __global const RayCount* offsets, __global Boundary* all_boundaries,
                               __global PartitionNode* all_nodes, __global DeepSegment* all_segments,
                               __global u32* all_status, u32 cluster_words, u32 regions, __global const u32* links,
                               __global const u32* first_leaves, __global const u32* leaves, u32 limit,
                               __global RayTally* tallies) {
     const u32 id = (u32)get_global_id(0), words = cluster_words + words_of_set(regions);
-    u32 end_count, stop, beyond;
+    u32 boundary_count, stop, beyond;
     DeepRay swept;
     RayCount offset;
     status_tree tree;
     ray3 r;
     ray_range wanted;
     real tolerance;
-    __global End* ends;
+    __global Boundary* boundaries;
     __global PartitionNode* list;
     __global DeepSegment* of_segment;
     __global u32* status;
     if (id >= count) return;
     swept = deep[first_ray + id];
     offset = offsets[swept.ray];
-    end_count = 2 * (offsets[swept.ray + 1].segments - offset.segments);
-    if (swept.changed == end_count || !ray_of(frame, rays, number_of(frame, listed, swept.ray), &r, &wanted)) return;
+    boundary_count = 2 * (offsets[swept.ray + 1].segments - offset.segments);
+    if (swept.changed == boundary_count || !ray_of(frame, rays, number_of(frame, listed, swept.ray), &r, &wanted))
+        return;
     tolerance = tolerance_along(frame, r);
     beyond = sides_beyond(frame, r);
-    ends = all_ends + 2 * (size_t)offset.segments;
+    boundaries = all_boundaries + 2 * (size_t)offset.segments;
     list = all_nodes + 2 * (size_t)offset.segments;
     of_segment = all_segments + (swept.segment - first_segment);
     status = all_status + SIDES * (size_t)id * words;
@@ -237,15 +240,15 @@ __kernel void sweep_deep_rays(__global const Frame* frame, __global const RayRec
     tree.leaves = leaves;
     tree.cluster_words = cluster_words;
     tree.regions = regions;
-    if (swept.changed == 0) swept.sides = start_deep_ray(ends, end_count / 2, beyond, of_segment);
-    stop = end_count - swept.changed > limit ? swept.changed + limit : end_count;
+    if (swept.changed == 0) swept.sides = start_deep_ray(boundaries, boundary_count / 2, beyond, of_segment);
+    stop = boundary_count - swept.changed > limit ? swept.changed + limit : boundary_count;
     while (swept.changed < stop) {
-        if (swept.changed == swept.at) find_event(&swept, end_count, tolerance, ends, list, of_segment);
+        if (swept.changed == swept.at) find_event(&swept, boundary_count, tolerance, boundaries, list, of_segment);
         for (; swept.changed < swept.at && swept.changed < stop; ++swept.changed) {
             const u32 segment = list[swept.changed].next >> 1, is_open = of_segment[segment].is_open;
-            list[swept.changed].in_end = NONE;
+            list[swept.changed].in_boundary = NONE;
             if (is_open == 1u || is_open == 2u) {  // a segment that vanishes is left out
-                const End end = ends[2 * segment];
+                const Boundary end = boundaries[2 * segment];
                 __global u32* const covers = of_segment[of_segment[segment].first].covers;
                 u32 side;
                 of_segment[segment].is_open = is_open == 1u ? 3u : 0u;
@@ -255,11 +258,12 @@ __kernel void sweep_deep_rays(__global const Frame* frame, __global const RayRec
                         swept.open_solids = is_open == 1u ? swept.open_solids + 1 : swept.open_solids - 1;
             }
         }
-        if (swept.changed < swept.at || (swept.in_end == NONE && swept.out_end == NONE)) continue;
-        if (swept.open != NONE) list[swept.open].out_end = swept.out_end != NONE ? swept.out_end : swept.in_end;
+        if (swept.changed < swept.at || (swept.in_boundary == NONE && swept.out_boundary == NONE)) continue;
+        if (swept.open != NONE)
+            list[swept.open].out_boundary = swept.out_boundary != NONE ? swept.out_boundary : swept.in_boundary;
         if (swept.open_solids) {
             const u32 moved = swept.sides > 1 && (swept.open_solids > 1 || beyond);
-            list[swept.event].in_end = swept.in_end != NONE ? swept.in_end : swept.out_end;
+            list[swept.event].in_boundary = swept.in_boundary != NONE ? swept.in_boundary : swept.out_boundary;
             list[swept.event].owner =
                 deep_owner(tree, frame->rank_ends, status, words, moved, moved ? SIDES : 1u, beyond);
             if (swept.last != NONE) list[swept.last].next = swept.event;
@@ -269,7 +273,7 @@ __kernel void sweep_deep_rays(__global const Frame* frame, __global const RayRec
             swept.open = NONE;
         }
     }
-    if (swept.changed == end_count) {
+    if (swept.changed == boundary_count) {
         RayTally tally;
         if (swept.last != NONE) list[swept.last].next = NONE;
         tally.partitions = swept.partitions;

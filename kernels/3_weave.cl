@@ -15,32 +15,34 @@
 #include "traversal/camera.h"
 #include "shared/capacity.h"
 
-static void order_end(u32 id, u32 ray, __global const RayCount* offsets, __global const End* all_ends,
-                      __global PartitionNode* all_nodes) {
+static void order_boundary(u32 id, u32 ray, __global const RayCount* offsets, __global const Boundary* all_boundaries,
+                           __global PartitionNode* all_nodes) {
     const u32 count = 2 * (offsets[ray + 1].segments - offsets[ray].segments);
     const size_t base = 2 * (size_t)offsets[ray].segments;
-    __global const End* const ends = all_ends + base;
+    __global const Boundary* const boundaries = all_boundaries + base;
     const u32 number = id - (u32)base;
-    const real t = ends[number].t;
+    const real t = boundaries[number].t;
     u32 i, place = 0;
     all_nodes[id].owner = ray;
     if (count > 2 * DEEP_SEGMENTS) return;
-    for (i = 0; i < count; ++i) place += ends[i].t < t || (ends[i].t == t && i < number);
+    for (i = 0; i < count; ++i) place += boundaries[i].t < t || (boundaries[i].t == t && i < number);
     all_nodes[base + place].next = number;
 }
 
-// Orders one boundary a work-item. `ray_of_end`: kernel 2 left the boundary's ray in the words of `bits`.
-__kernel void order_ends(__global const Frame* frame, __global const RayCount* offsets, __global const End* all_ends,
-                         __global const u32* ray_of_end, __global PartitionNode* all_nodes) {
+// Orders one boundary a work-item. `ray_of_boundary`: kernel 2 left the boundary's ray in the words of `bits`.
+__kernel void order_boundaries(__global const Frame* frame, __global const RayCount* offsets,
+                               __global const Boundary* all_boundaries, __global const u32* ray_of_boundary,
+                               __global PartitionNode* all_nodes) {
     const u32 id = (u32)get_global_id(0);
-    if (id < 2 * segments_of(frame, offsets)) order_end(id, ray_of_end[id], offsets, all_ends, all_nodes);
+    if (id < 2 * segments_of(frame, offsets))
+        order_boundary(id, ray_of_boundary[id], offsets, all_boundaries, all_nodes);
 }
 
 static u32 has_bit(__global const u32* bits, u32 index) { return (bits[index >> 5] >> (index & 31u)) & 1u; }
 
 __kernel void weave(__global const Frame* frame, __global const RayRecord* rays, __global const u32* listed,
-                    __global const RayCount* offsets, __global End* all_ends, __global PartitionNode* all_nodes,
-                    __global u32* all_bits, __global RayTally* tallies) {
+                    __global const RayCount* offsets, __global Boundary* all_boundaries,
+                    __global PartitionNode* all_nodes, __global u32* all_bits, __global RayTally* tallies) {
     const u32 id = (u32)get_global_id(0);
     RayTally tally;
     RayCount offset;
@@ -48,7 +50,7 @@ __kernel void weave(__global const Frame* frame, __global const RayRecord* rays,
     ray_range wanted;
     real tolerance, t_e;
     u32 segment_count, words, at = 0, open, open_bits, last, e, after_e;
-    __global End* ends;
+    __global Boundary* boundaries;
     __global PartitionNode* list;
     __global u32* bits;
     if (id >= frame->ray_count || !segments_fit(frame, offsets)) return;
@@ -60,7 +62,7 @@ __kernel void weave(__global const Frame* frame, __global const RayRecord* rays,
         tallies[id] = tally;
         return;
     }
-    ends = all_ends + 2 * (size_t)offset.segments;
+    boundaries = all_boundaries + 2 * (size_t)offset.segments;
     list = all_nodes + 2 * (size_t)offset.segments;
     bits = all_bits + offset.words;
     words = words_of(segment_count);
@@ -69,7 +71,7 @@ __kernel void weave(__global const Frame* frame, __global const RayRecord* rays,
     // the loop does not wait.
     e = list[0].next;
     after_e = list[1].next;
-    t_e = ends[e].t;
+    t_e = boundaries[e].t;
 
     open = NONE;       // the partition that the sweep is in
     open_bits = NONE;  // where its bits are; NONE: no segment is open
@@ -79,14 +81,14 @@ __kernel void weave(__global const Frame* frame, __global const RayRecord* rays,
         const u32 first = e;
         const real t = t_e;
         __global u32* now = bits + event * words;
-        u32 in_end = NONE, out_end = NONE, w, i, any = 0;
+        u32 in_boundary = NONE, out_boundary = NONE, w, i, any = 0;
         // All boundaries of this event change sides at once.
         for (w = 0; w < words; ++w) now[w] = open_bits == NONE ? 0 : bits[open_bits * words + w];
         do {
             now[e >> 6] ^= 1u << (e >> 1 & 31u);
             if (++at == 2 * segment_count) break;
             e = after_e;
-            t_e = ends[e].t;
+            t_e = boundaries[e].t;
             if (at + 1 < 2 * segment_count) after_e = list[at + 1].next;
         } while (t_e == t || t_e - t <= tolerance);
         // The surface at the event is that of the first boundary whose segment does not vanish: for the partition
@@ -95,16 +97,16 @@ __kernel void weave(__global const Frame* frame, __global const RayRecord* rays,
             const u32 ended = i == event ? first : list[i].next, segment = ended >> 1;
             const u32 after = has_bit(now, segment);
             const u32 before = open_bits != NONE && has_bit(bits + open_bits * words, segment);
-            if (i != event) ends[ended].t = t;
-            if (!(ended & 1u) && after && in_end == NONE) in_end = ended;
-            if ((ended & 1u) && !after && before && out_end == NONE) out_end = ended;
+            if (i != event) boundaries[ended].t = t;
+            if (!(ended & 1u) && after && in_boundary == NONE) in_boundary = ended;
+            if ((ended & 1u) && !after && before && out_boundary == NONE) out_boundary = ended;
         }
-        for (i = event; i < at; ++i) list[i].in_end = NONE;
-        if (in_end == NONE && out_end == NONE) continue;
-        if (open != NONE) list[open].out_end = out_end != NONE ? out_end : in_end;
+        for (i = event; i < at; ++i) list[i].in_boundary = NONE;
+        if (in_boundary == NONE && out_boundary == NONE) continue;
+        if (open != NONE) list[open].out_boundary = out_boundary != NONE ? out_boundary : in_boundary;
         for (w = 0; w < words; ++w) any |= now[w];
         if (any) {
-            list[event].in_end = in_end != NONE ? in_end : out_end;
+            list[event].in_boundary = in_boundary != NONE ? in_boundary : out_boundary;
             if (last != NONE) list[last].next = event;
             last = open = open_bits = event;
             ++tally.partitions;

@@ -4,8 +4,9 @@
 #include "shading/pixel.h"
 
 __kernel void shade(__global const Frame* frame, GEOMETRY_ARGS, APPEARANCE_ARGS, __global const u32* listed,
-                    __global const RayCount* offsets, __global const End* ends, __global const PartitionNode* nodes,
-                    __global RayTally* tallies, __global BatchReport* report, __global float* picture) {
+                    __global const RayCount* offsets, __global const Boundary* boundaries,
+                    __global const PartitionNode* nodes, __global RayTally* tallies, __global BatchReport* report,
+                    __global float* picture) {
     u32 id = (u32)get_global_id(0), seen = NONE, number;
     RayTally tally;
     Pixel pixel;
@@ -24,7 +25,7 @@ __kernel void shade(__global const Frame* frame, GEOMETRY_ARGS, APPEARANCE_ARGS,
     r = geometry_ray(frame, from_eye);
     tally = tallies[id];
     nodes += 2 * (size_t)offsets[id].segments;
-    ends += 2 * (size_t)offsets[id].segments;
+    boundaries += 2 * (size_t)offsets[id].segments;
     {
         // The first claimed partition that lies in the range, in whole or in part.
         const real after = parameter_at(r, visible.after), before = parameter_at(r, visible.before);
@@ -34,8 +35,8 @@ __kernel void shade(__global const Frame* frame, GEOMETRY_ARGS, APPEARANCE_ARGS,
              next = nodes[next].next) {
             const u32 region = nodes[next].owner;
             tally.overlaps += (region & OVERLAP) != 0;
-            if (seen == NONE && (region & ~OVERLAP) < seen_end && ends[nodes[next].out_end].t > after &&
-                ends[nodes[next].in_end].t < before && after < before)
+            if (seen == NONE && (region & ~OVERLAP) < seen_end && boundaries[nodes[next].out_boundary].t > after &&
+                boundaries[nodes[next].in_boundary].t < before && after < before)
                 seen = next;
         }
     }
@@ -43,10 +44,10 @@ __kernel void shade(__global const Frame* frame, GEOMETRY_ARGS, APPEARANCE_ARGS,
         pixel = background_pixel(frame);
     } else {
         PartitionNode partition = nodes[seen];
-        End end = ends[partition.in_end];
+        Boundary end = boundaries[partition.in_boundary];
         u32 region = partition.owner & ~OVERLAP;
         Geometry g = GEOMETRY;
-        pixel = seen_pixel(frame, lights, materials[region], g, r, visible, end, partition.in_end & 1u, region);
+        pixel = seen_pixel(frame, lights, materials[region], g, r, visible, end, partition.in_boundary & 1u, region);
     }
     pixel.depth = offsets[id + 1].segments - offsets[id].segments;
     pixel.partitions = tally.partitions;

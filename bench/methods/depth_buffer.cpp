@@ -156,9 +156,9 @@ private:
         depths_.clear();
         begin_.assign(1, 0);
         for (const std::uint32_t solid : solids_) {
-            ends_.clear();
-            shared_.rays.append_ends(solid, ray, -infinity, ends_);
-            for (const kernel::End& end : ends_) depths_.push_back(scale.kept(end.t));
+            boundaries_.clear();
+            shared_.rays.append_boundaries(solid, ray, -infinity, boundaries_);
+            for (const kernel::Boundary& end : boundaries_) depths_.push_back(scale.kept(end.t));
             begin_.push_back(depths_.size());
         }
     }
@@ -252,7 +252,7 @@ private:
     const Shared& shared_;
     LiveTrees live_;
     std::vector<std::uint32_t> solids_;
-    std::vector<kernel::End> ends_;
+    std::vector<kernel::Boundary> boundaries_;
     std::vector<std::uint64_t> depths_, peeled_;
     std::vector<std::size_t> begin_;  ///< of each candidate's depths
     std::vector<char> values_;        ///< by node

@@ -137,7 +137,7 @@ private:
         const std::size_t items = method_.item_a_ray ? input.rays : 2 * std::size_t{segments};
         // As for csgrt's own kernel 4; items that are rays take differently long.
         const std::size_t group = method_.item_a_ray ? divergent_group(device_) : work_group;
-        return kernel.launch(segments ? items : 0, group, input.batch.frame, memory.offsets(), memory.ends(),
+        return kernel.launch(segments ? items : 0, group, input.batch.frame, memory.offsets(), memory.boundaries(),
                              memory.bits(), memory.partitions(), tables_, memory_);
     }
 
@@ -158,14 +158,15 @@ private:
         for (std::uint32_t ray = 0; ray < count; ++ray) {
             const std::uint32_t segments = traced.offsets[ray + 1].segments - traced.offsets[ray].segments;
             const std::size_t first = 2 * std::size_t{traced.offsets[ray].segments};
-            const kernel::End* const ends = traced.ends.data() + first;
+            const kernel::Boundary* const boundaries = traced.boundaries.data() + first;
             const kernel::PartitionNode* const nodes = traced.nodes.data() + first;
             Sequence& stretches = answers[ray].stretches;
             stretches.clear();
             for (std::uint32_t k = kernel::first_partition(nodes, segments); k != NONE; k = nodes[k].next) {
                 ++partitions_;
                 if (nodes[k].owner != NONE)
-                    append(stretches, {nodes[k].owner, ends[nodes[k].in_end].t, ends[nodes[k].out_end].t});
+                    append(stretches,
+                           {nodes[k].owner, boundaries[nodes[k].in_boundary].t, boundaries[nodes[k].out_boundary].t});
             }
         }
         return true;

@@ -126,9 +126,9 @@ private:
         surfaces_.clear();
         begin_.assign(1, 0);
         for (const std::uint32_t solid : solids_) {
-            ends_.clear();
-            shared_.rays.append_ends(solid, ray, -infinity, ends_);
-            for (const kernel::End& end : ends_) surfaces_.push_back(end.t);
+            boundaries_.clear();
+            shared_.rays.append_boundaries(solid, ray, -infinity, boundaries_);
+            for (const kernel::Boundary& end : boundaries_) surfaces_.push_back(end.t);
             begin_.push_back(surfaces_.size());
         }
     }
@@ -214,7 +214,7 @@ private:
     const Shared& shared_;
     LiveTrees live_;
     std::vector<std::uint32_t> solids_;
-    std::vector<kernel::End> ends_;
+    std::vector<kernel::Boundary> boundaries_;
     std::vector<double> surfaces_;
     std::vector<std::size_t> begin_;  ///< of each candidate's surfaces
     std::vector<Known> known_;

@@ -9,28 +9,28 @@
 namespace csgrt::bench {
 
 void RayEvents::find(const SceneRays& rays, const Ray& ray) {
-    rays.ends(ray, -std::numeric_limits<double>::infinity(), ends_);
+    rays.boundaries(ray, -std::numeric_limits<double>::infinity(), boundaries_);
     at.clear();
     segments.clear();
     marked = false;
-    if (ends_.empty()) return;
+    if (boundaries_.empty()) return;
     const double tolerance = rays.tolerance(ray);
-    order_.resize(ends_.size());
-    event_of_.resize(ends_.size());
+    order_.resize(boundaries_.size());
+    event_of_.resize(boundaries_.size());
     std::iota(order_.begin(), order_.end(), 0u);
     std::sort(order_.begin(), order_.end(), [&](std::uint32_t a, std::uint32_t b) {
-        return ends_[a].t < ends_[b].t || (ends_[a].t == ends_[b].t && a < b);
+        return boundaries_[a].t < boundaries_[b].t || (boundaries_[a].t == boundaries_[b].t && a < b);
     });
     double first = 0;
     for (const std::uint32_t end : order_) {
-        const double t = ends_[end].t;
+        const double t = boundaries_[end].t;
         if (at.empty() || !(t == first || t - first <= tolerance)) at.push_back(first = t);
         event_of_[end] = static_cast<std::uint32_t>(at.size() - 1);
     }
-    for (std::size_t i = 0; i < ends_.size(); i += 2) {
+    for (std::size_t i = 0; i < boundaries_.size(); i += 2) {
         if (event_of_[i] >= event_of_[i + 1]) continue;
-        const std::uint32_t missed = ends_[i].surface & MISSED;
-        segments.push_back({ends_[i].solid, event_of_[i], event_of_[i + 1], missed});
+        const std::uint32_t missed = boundaries_[i].surface & MISSED;
+        segments.push_back({boundaries_[i].solid, event_of_[i], event_of_[i + 1], missed});
         marked = marked || missed;
     }
 }

@@ -30,7 +30,7 @@ struct RayEvents {
     std::uint32_t steps() const { return at.empty() ? 0 : static_cast<std::uint32_t>(at.size() - 1); }
 
 private:
-    std::vector<kernel::End> ends_;
+    std::vector<kernel::Boundary> boundaries_;
     std::vector<std::uint32_t> order_, event_of_;
 };
 

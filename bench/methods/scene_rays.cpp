@@ -37,26 +37,27 @@ void SceneRays::candidates(const Ray& ray, double t_min, std::vector<std::uint32
     }
 }
 
-void SceneRays::append_ends(std::uint32_t solid, const Ray& ray, double t_min, std::vector<kernel::End>& ends) const {
+void SceneRays::append_boundaries(std::uint32_t solid, const Ray& ray, double t_min,
+                                  std::vector<kernel::Boundary>& boundaries) const {
     const kernel::ray3 r = to_kernel(ray);
     const kernel::SolidRecord& record = scene_.solids[solid];
     const std::uint32_t segments = kernel::collect(geometry_, record, solid, r, t_min, nullptr);
     if (segments == 0) return;
-    const std::size_t first = ends.size();
-    ends.resize(first + 2 * std::size_t{segments});
-    kernel::collect(geometry_, record, solid, r, t_min, ends.data() + first);
+    const std::size_t first = boundaries.size();
+    boundaries.resize(first + 2 * std::size_t{segments});
+    kernel::collect(geometry_, record, solid, r, t_min, boundaries.data() + first);
 }
 
-void SceneRays::ends(const Ray& ray, double t_min, std::vector<kernel::End>& ends) const {
+void SceneRays::boundaries(const Ray& ray, double t_min, std::vector<kernel::Boundary>& boundaries) const {
     std::vector<std::uint32_t> solids;
     candidates(ray, t_min, solids);
-    ends.clear();
-    for (const std::uint32_t solid : solids) append_ends(solid, ray, t_min, ends);
+    boundaries.clear();
+    for (const std::uint32_t solid : solids) append_boundaries(solid, ray, t_min, boundaries);
 }
 
 double SceneRays::tolerance(const Ray& ray) const { return kernel::tolerance_along(&frame_, to_kernel(ray)); }
 
-kernel::vec3 SceneRays::normal(const Ray& ray, const kernel::End& end) const {
+kernel::vec3 SceneRays::normal(const Ray& ray, const kernel::Boundary& end) const {
     return kernel::normal_at(geometry_, scene_.solids[end.solid], to_kernel(ray), end.t, end.surface);
 }
 

@@ -21,13 +21,14 @@ public:
     /// The solids whose boxes the ray meets at t_min or later, ascending. `t_min` may be minus infinity.
     void candidates(const Ray& ray, double t_min, std::vector<std::uint32_t>& solids) const;
     /// Appends the ends of one solid's segments, in then out, that end at t_min or later.
-    void append_ends(std::uint32_t solid, const Ray& ray, double t_min, std::vector<kernel::End>& ends) const;
+    void append_boundaries(std::uint32_t solid, const Ray& ray, double t_min,
+                           std::vector<kernel::Boundary>& boundaries) const;
     /// The ends of all segments along the ray, by ascending solid, as the kernels store them.
-    void ends(const Ray& ray, double t_min, std::vector<kernel::End>& ends) const;
+    void boundaries(const Ray& ray, double t_min, std::vector<kernel::Boundary>& boundaries) const;
     /// How far along the ray's parameter ends are one surface: tolerance_of(), by the length of the direction.
     double tolerance(const Ray& ray) const;
     /// The outward unit normal at an end.
-    kernel::vec3 normal(const Ray& ray, const kernel::End& end) const;
+    kernel::vec3 normal(const Ray& ray, const kernel::Boundary& end) const;
 
     const CompiledScene& scene() const { return scene_; }
 

@@ -13,7 +13,7 @@
 
 // A ray's segments, and the bits that say which of them cover the partition.
 typedef struct {
-    ENDS const End* ends;
+    ENDS const Boundary* boundaries;
     ENDS const u32* bits;
     u32 segments;
     u32 missed;  // missed_on() a side: segments that miss it do not cover
@@ -24,7 +24,7 @@ typedef struct {
     GLOBAL const u32* trees;
 } cover;
 
-FN u32 is_missed(cover c, u32 segment) { return c.missed && (c.ends[2 * segment].surface & c.missed); }
+FN u32 is_missed(cover c, u32 segment) { return c.missed && (c.boundaries[2 * segment].surface & c.missed); }
 FN u32 covers(cover c, u32 segment) { return (c.bits[segment >> 5] >> (segment & 31u) & 1u) && !is_missed(c, segment); }
 
 // The solids that cover a partition: a list if they are few, and a (Bloom) filter that most other solids do not pass.
@@ -63,9 +63,9 @@ FN void list_covered(cover c, covered_solids* list) {
     for (word = 0; word < words; ++word) {
         u32 bits = c.bits[word];
         while (bits) {
-            const u32 segment = take_segment_of(word, &bits), solid = c.ends[2 * segment].solid;
+            const u32 segment = take_segment_of(word, &bits), solid = c.boundaries[2 * segment].solid;
             if (is_missed(c, segment)) continue;
-            if (c.marked) list->missed |= c.ends[2 * segment].surface & MISSED;
+            if (c.marked) list->missed |= c.boundaries[2 * segment].surface & MISSED;
             filter = with(filter, filter_of(solid));
             if (count < FEW) list->solids[count] = solid;
             if (count <= FEW) ++count;
@@ -85,13 +85,13 @@ FN u32 is_covered(cover c, const covered_solids* list, u32 solid) {
     }
     while (low < high) {  // many solids: a ray's boundaries are sorted by solid in memory
         u32 middle = (low + high) >> 1;
-        if (c.ends[2 * middle].solid < solid) {
+        if (c.boundaries[2 * middle].solid < solid) {
             low = middle + 1;
         } else {
             high = middle;
         }
     }
-    for (; low < c.segments && c.ends[2 * low].solid == solid; ++low)
+    for (; low < c.segments && c.boundaries[2 * low].solid == solid; ++low)
         if (covers(c, low)) return 1;
     return 0;
 }
@@ -147,7 +147,7 @@ FN void fill_cursor(leaf_cursor* w, cover c, u32 from, u32 end) {
     for (word = 0; word < words; ++word) {
         u32 bits = c.bits[word];
         while (bits) {
-            const u32 segment = take_segment_of(word, &bits), solid = c.ends[2 * segment].solid;
+            const u32 segment = take_segment_of(word, &bits), solid = c.boundaries[2 * segment].solid;
             u32 low = c.solids[solid].first_leaf, high = low + c.solids[solid].leaf_count, last = high;
             while (low < high) {  // finds the first at or after `from`
                 u32 middle = (low + high) >> 1;
@@ -301,7 +301,7 @@ FN claim find_claim(cover c, ENDS const u32* starting, const covered_solids* lis
     for (word = 0; word < words; ++word) {
         u32 bits = starting[word];
         while (bits) {
-            const u32 segment = take_segment_of(word, &bits), solid = c.ends[2 * segment].solid;
+            const u32 segment = take_segment_of(word, &bits), solid = c.boundaries[2 * segment].solid;
             u32 i = c.solids[solid].first_start, end = is_missed(c, segment) ? i : i + c.solids[solid].start_count;
             for (; i < end; ++i) {
                 const StartRecord start = c.starts[i];

@@ -13,7 +13,7 @@ FN u32 list_claims(cover c, GLOBAL u32* found) {
     for (word = 0; word < words; ++word) {
         u32 bits = c.bits[word];
         while (bits) {
-            const u32 segment = take_segment_of(word, &bits), solid = c.ends[2 * segment].solid;
+            const u32 segment = take_segment_of(word, &bits), solid = c.boundaries[2 * segment].solid;
             u32 i = c.solids[solid].first_start, end = is_missed(c, segment) ? i : i + c.solids[solid].start_count;
             for (; i < end; ++i) {
                 const StartRecord start = c.starts[i];

@@ -17,26 +17,25 @@
 #include "../geometry/collect.h"
 #include "../traversal/bvh_cursor.h"
 
-#define SWEEP_SEGMENTS FEW                 // segments that a ray holds at a time, in no order of solids
-                                           // solid
+#define SWEEP_SEGMENTS FEW                 // segments that a ray holds at a time
 #define SLOT_WORDS (SWEEP_SEGMENTS / 32u)  // words of a bit array with a bit for each segment
 
 // The state of the sweep along a ray: the segments that have begun or will begin. The next boundary of a segment is
 // `in` if the segment is not open yet, else `out`.
 typedef struct {
-    End ends[2 * SWEEP_SEGMENTS];  // of segment s: 2 s and 2 s + 1
-    u32 used[SLOT_WORDS];          // bit s: there is a segment s
-    u32 open[SLOT_WORDS];          // bit s: it covers the partition that the sweep is in
-    u32 starts[SLOT_WORDS];        // bit s: its solid starts some term
-    u32 entry[SLOT_WORDS];         // bit s: some term may begin to be true where segment s begins
-    u32 exit[SLOT_WORDS];          // bit s: or where segment s ends
-    real next_event;               // the distance of the next boundary; infinity: there is none
-    End seen;                      // the boundary where the current partition begins, if it is claimed
-    u32 region;                    // the region that claims it; NONE: none does
-    u32 from_within;               // the partition begins where a solid ends
-    u32 goes_on;                   // the same region claims the partition before
-    u32 marked;                    // has any segment so far MISSED_... set?
-    u32 beyond;                    // see cover
+    Boundary boundaries[2 * SWEEP_SEGMENTS];  // of segment s: 2 s and 2 s + 1
+    u32 used[SLOT_WORDS];                     // bit s: there is a segment s
+    u32 open[SLOT_WORDS];                     // bit s: it covers the partition that the sweep is in
+    u32 starts[SLOT_WORDS];                   // bit s: its solid starts some term
+    u32 entry[SLOT_WORDS];                    // bit s: some term may begin to be true where segment s begins
+    u32 exit[SLOT_WORDS];                     // bit s: or where segment s ends
+    real next_event;                          // the distance of the next boundary; infinity: there is none
+    Boundary seen;                            // the boundary where the current partition begins, if it is claimed
+    u32 region;                               // the region that claims it; NONE: none does
+    u32 from_within;                          // the partition begins where a solid ends
+    u32 goes_on;                              // the same region claims the partition before
+    u32 marked;                               // has any segment so far MISSED_... set?
+    u32 beyond;                               // see cover
 } sweep;
 
 typedef struct {
@@ -74,12 +73,12 @@ FN u32 take_slot(sweep* w, SolidRecord solid) {
 }
 
 // Adds a segment. 0: there is no room.
-FN int take_segment(sweep* w, SolidRecord solid, End in, End out) {
+FN int take_segment(sweep* w, SolidRecord solid, Boundary in, Boundary out) {
     const u32 slot = take_slot(w, solid);
     if (slot != NONE) {
         w->marked |= in.surface & MISSED;
-        w->ends[2 * slot] = in;
-        w->ends[2 * slot + 1] = out;
+        w->boundaries[2 * slot] = in;
+        w->boundaries[2 * slot + 1] = out;
         w->next_event = real_min(w->next_event, in.t);
     }
     return slot != NONE;
@@ -91,11 +90,11 @@ FN int take_solid(sweep* w, Geometry g, u32 index, ray3 r, real t_min) {
     u32 count, i;
     int fits = 1;
 #if (CSGRT_SOLIDS) & MANY_SEGMENTS
-    End found[2 * SWEEP_SEGMENTS];
-    if ((MANY_SEGMENTS >> solid.type & 1u) && collect(g, solid, index, r, t_min, (ENDS End*)0) > SWEEP_SEGMENTS)
+    Boundary found[2 * SWEEP_SEGMENTS];
+    if ((MANY_SEGMENTS >> solid.type & 1u) && collect(g, solid, index, r, t_min, (ENDS Boundary*)0) > SWEEP_SEGMENTS)
         return 0;
 #else
-    End found[4];
+    Boundary found[4];
 #endif
     count = collect(g, solid, index, r, t_min, found);
     for (i = 0; i < count && fits; ++i) fits = take_segment(w, solid, found[2 * i], found[2 * i + 1]);
@@ -111,7 +110,7 @@ FN u32 claim_of_one(const sweep* w, scene_tables s) {
         several |= bits && slot != NONE;
         slot = bits ? 32u * i + 31u - clz(bits) : slot;
     }
-    return several || slot == NONE ? ALONE_UNKNOWN : s.g.solids[w->ends[2 * slot].solid].alone;
+    return several || slot == NONE ? ALONE_UNKNOWN : s.g.solids[w->boundaries[2 * slot].solid].alone;
 }
 
 // The region that claims the space that the open segments cover. NONE also if the region is hidden: hidden regions have
@@ -124,7 +123,7 @@ FN u32 first_claim(const sweep* w, scene_tables s, SolidFilter changed) {
     if (alone == ALONE_UNKNOWN) {
         cover c;
         covered_solids covered;
-        c.ends = w->ends;
+        c.boundaries = w->boundaries;
         c.bits = w->open;
         c.segments = SWEEP_SEGMENTS;
         c.missed = 0;
@@ -143,11 +142,11 @@ FN u32 first_claim(const sweep* w, scene_tables s, SolidFilter changed) {
 }
 
 // The order in which kernel 3 links boundaries: by distance, then by solid.
-FN int comes_before(End a, End b) { return a.t < b.t || (a.t == b.t && a.solid < b.solid); }
+FN int comes_before(Boundary a, Boundary b) { return a.t < b.t || (a.t == b.t && a.solid < b.solid); }
 
 // An event: the first boundary where a segment begins to cover, and the first where a segment ceases to.
 typedef struct {
-    End in, out;          // solid NONE: there is none
+    Boundary in, out;     // solid NONE: there is none
     SolidFilter changed;  // the solids that come or go
     u32 begins;           // not 0: a term may begin to be true
 } event;
@@ -166,11 +165,11 @@ FN event pass_event(sweep* w, real tolerance) {
         while (bits) {
             const u32 bit = bits & (0u - bits), slot = 32u * word + 31u - clz(bit),
                       is_open = (w->open[word] & bit) != 0;
-            real next = w->ends[2 * slot + is_open].t;
+            real next = w->boundaries[2 * slot + is_open].t;
             bits ^= bit;
             if (next == t || next - t <= tolerance) {
-                const End end = w->ends[2 * slot + is_open];
-                const real out = w->ends[2 * slot + 1].t;
+                const Boundary end = w->boundaries[2 * slot + is_open];
+                const real out = w->boundaries[2 * slot + 1].t;
                 const int is_thin = !is_open && (out == t || out - t <= tolerance);
                 if (is_open || is_thin) w->used[word] ^= bit;
                 if (!is_thin) {

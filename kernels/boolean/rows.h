@@ -7,7 +7,7 @@
 
 // A listed ray's partitions, and the row that comes next.
 typedef struct {
-    GLOBAL const End* ends;
+    GLOBAL const Boundary* boundaries;
     GLOBAL const PartitionNode* nodes;
     u32 node;       // of the next partition; NONE: the list ends
     u32 first_row;  // see Frame
@@ -19,15 +19,15 @@ typedef struct {
 
 typedef struct {
     wide in, out;
-    u32 in_end, out_end;  // of the ray; NONE: the range cuts it there
+    u32 in_boundary, out_boundary;  // of the ray; NONE: the range cuts it there
     u32 region;
 } ray_row;
 
-// Begins a ray's rows. `ends`, `nodes`: the ray's own.
-FN ray_rows rows_of(GLOBAL const Frame* f, RayRecord record, GLOBAL const End* ends, GLOBAL const PartitionNode* nodes,
-                    u32 segment_count) {
+// Begins a ray's rows. `boundaries`, `nodes`: the ray's own.
+FN ray_rows rows_of(GLOBAL const Frame* f, RayRecord record, GLOBAL const Boundary* boundaries,
+                    GLOBAL const PartitionNode* nodes, u32 segment_count) {
     ray_rows w;
-    w.ends = ends;
+    w.boundaries = boundaries;
     w.nodes = nodes;
     w.node = first_partition(nodes, segment_count);
     w.first_row = f->first_row;
@@ -55,11 +55,11 @@ FN int cut_row(ray_rows w, ray_row* row) {
     const wide in = row->in, out = row->out;
     if (in < w.near) {
         row->in = w.near;
-        row->in_end = NONE;
+        row->in_boundary = NONE;
     }
     if (out > w.far) {
         row->out = w.far;
-        row->out_end = NONE;
+        row->out_boundary = NONE;
     }
     return w.near < w.far ? row->in < row->out : in <= w.near && w.near < out;
 }
@@ -73,18 +73,19 @@ FN int next_row(ray_rows* w, ray_row* row) {
         w->node = last.next;
         if (region == NONE) continue;
         row->region = region;
-        row->in_end = last.in_end;
+        row->in_boundary = last.in_boundary;
         while (goes_on && w->node != NONE) {
             const PartitionNode next = w->nodes[w->node];
-            goes_on = (next.owner & ~OVERLAP) == region && w->ends[next.in_end].t == w->ends[last.out_end].t;
+            goes_on = (next.owner & ~OVERLAP) == region &&
+                      w->boundaries[next.in_boundary].t == w->boundaries[last.out_boundary].t;
             if (goes_on) {
                 last = next;
                 w->node = next.next;
             }
         }
-        row->out_end = last.out_end;
-        row->in = row_distance(*w, w->ends[row->in_end].t);
-        row->out = row_distance(*w, w->ends[row->out_end].t);
+        row->out_boundary = last.out_boundary;
+        row->in = row_distance(*w, w->boundaries[row->in_boundary].t);
+        row->out = row_distance(*w, w->boundaries[row->out_boundary].t);
         if (cut_row(*w, row)) {
             if (w->first_row) w->node = NONE;
             return 1;
@@ -100,8 +101,8 @@ FN int next_overlap(ray_rows* w, ray_row* row, u32* node) {
         *node = w->node;
         w->node = n.next;
         if (!(n.owner & OVERLAP)) continue;
-        row->in = row_distance(*w, w->ends[n.in_end].t);
-        row->out = row_distance(*w, w->ends[n.out_end].t);
+        row->in = row_distance(*w, w->boundaries[n.in_boundary].t);
+        row->out = row_distance(*w, w->boundaries[n.out_boundary].t);
         if (cut_row(*w, row)) return 1;
     }
     return 0;
@@ -109,7 +110,7 @@ FN int next_overlap(ray_rows* w, ray_row* row, u32* node) {
 
 // The normal at one boundary of a row, outward from its region. The solid's own normal is turned around where a removed
 // solid ends, and where a solid begins that takes what follows.
-FN vec3 row_normal(Geometry g, ray3 r, End end, u32 number, u32 is_out) {
+FN vec3 row_normal(Geometry g, ray3 r, Boundary end, u32 number, u32 is_out) {
     const vec3 n = normal_at(g, g.solids[end.solid], r, end.t, end.surface);
     return (number & 1u) == is_out ? n : make_vec3(-n.x, -n.y, -n.z);
 }

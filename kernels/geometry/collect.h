@@ -10,15 +10,15 @@
 #include "solid.h"
 #include "touch.h"
 
-FN void put_segment(ENDS End* ends, u32 solid, real in, u32 in_surface, real out, u32 out_surface) {
-    End e;
+FN void put_segment(ENDS Boundary* boundaries, u32 solid, real in, u32 in_surface, real out, u32 out_surface) {
+    Boundary e;
     e.solid = solid;
     e.t = in;
     e.surface = in_surface;
-    ends[0] = e;
+    boundaries[0] = e;
     e.t = out;
     e.surface = out_surface;
-    ends[1] = e;
+    boundaries[1] = e;
 }
 
 #if (CSGRT_SOLIDS) & FLAT_FACED
@@ -60,7 +60,7 @@ FN beside find_faces(Geometry g, SolidRecord solid, ray3 r) {
 // The segments of every step aside, if the ray runs in a face of the solid. They may overlap. `stored`: how many
 // segments the ray as it is has; the new ones take their memory. `r` is the world's ray. The function is not inlined:
 // inlined rare code costs every ray.
-NOINLINE_FN u32 collect_beside(Geometry g, SolidRecord solid, u32 index, ray3 r, real t_min, ENDS End* ends,
+NOINLINE_FN u32 collect_beside(Geometry g, SolidRecord solid, u32 index, ray3 r, real t_min, ENDS Boundary* boundaries,
                                u32 stored) {
     beside b;
     u32 count = 0, near = 0;
@@ -68,23 +68,23 @@ NOINLINE_FN u32 collect_beside(Geometry g, SolidRecord solid, u32 index, ray3 r,
     b = find_faces(g, solid, r);
     if (!b.found) return stored;
     while (next_step(&b)) {
-        crossings c = no_crossings(index, t_min, ends ? ends + 2 * (size_t)count : ends);
+        crossings c = no_crossings(index, t_min, boundaries ? boundaries + 2 * (size_t)count : boundaries);
         u32 found, i;
         c.missed = missed_beside(b);
         found = collect_once(g, solid, r, c, b, &near);
-        if (ends && count > 0) {
+        if (boundaries && count > 0) {
             for (i = 0; i < found; ++i) {
-                const End in = ends[2 * (count + i)], out = ends[2 * (count + i) + 1];
-                insert_segment(ends, count + i, in, out);
+                const Boundary in = boundaries[2 * (count + i)], out = boundaries[2 * (count + i) + 1];
+                insert_segment(boundaries, count + i, in, out);
             }
         }
         count += found;
     }
     // Room for the segments of the ray as it is was counted before it was known that the ray runs in a face.
     for (; count < stored; ++count)
-        if (ends) {
-            ends[2 * (size_t)count].surface |= MISSED;
-            ends[2 * (size_t)count + 1] = ends[2 * (size_t)count];
+        if (boundaries) {
+            boundaries[2 * (size_t)count].surface |= MISSED;
+            boundaries[2 * (size_t)count + 1] = boundaries[2 * (size_t)count];
         }
     return count;
 }
@@ -92,29 +92,29 @@ NOINLINE_FN u32 collect_beside(Geometry g, SolidRecord solid, u32 index, ray3 r,
 
 // Collects from solids of types that may have more than two segments. Returns 0 if the type is another; else *count is
 // set. See collect_as_it_is(). `r` is the solid's own ray (ray_at).
-FN u32 collect_many(Geometry g, SolidRecord solid, u32 index, ray3 r, real t_min, ENDS End* ends, u32* count,
+FN u32 collect_many(Geometry g, SolidRecord solid, u32 index, ray3 r, real t_min, ENDS Boundary* boundaries, u32* count,
                     u32* near) {
 #if (CSGRT_SOLIDS) & FLAT_FACED
     if (FLAT_FACED >> solid.type & 1u) {
-        *count = collect_once(g, solid, r, no_crossings(index, t_min, ends), not_beside(), near);
+        *count = collect_once(g, solid, r, no_crossings(index, t_min, boundaries), not_beside(), near);
         return 1;
     }
 #endif
 #if HAS_SOLID(SOLID_SUPERELL)
     if (solid.type == SOLID_SUPERELL) {
-        *count = close_crossings(superell_cross(g.reals + solid.first_real, r, no_crossings(index, t_min, ends)));
+        *count = close_crossings(superell_cross(g.reals + solid.first_real, r, no_crossings(index, t_min, boundaries)));
         return 1;
     }
 #endif
 #if HAS_SOLID(SOLID_HRT)
     if (solid.type == SOLID_HRT) {
-        *count = close_crossings(hrt_cross(g.reals + solid.first_real, r, no_crossings(index, t_min, ends)));
+        *count = close_crossings(hrt_cross(g.reals + solid.first_real, r, no_crossings(index, t_min, boundaries)));
         return 1;
     }
 #endif
 #if HAS_SOLID(SOLID_METABALL)
     if (solid.type == SOLID_METABALL) {
-        *count = close_crossings(metaball_cross(g, solid, r, no_crossings(index, t_min, ends)));
+        *count = close_crossings(metaball_cross(g, solid, r, no_crossings(index, t_min, boundaries)));
         return 1;
     }
 #endif
@@ -138,24 +138,25 @@ FN segments collect_few(Geometry g, SolidRecord solid, ray3 r, real t_min) {
 
 // Collects the segments of the ray as it is. *near becomes 1 if the ray may run in faces of the solid: then the caller
 // needs collect_beside(), too.
-WHOLE_FN u32 collect_as_it_is(Geometry g, SolidRecord solid, u32 index, ray3 r, real t_min, ENDS End* ends, u32* near) {
+WHOLE_FN u32 collect_as_it_is(Geometry g, SolidRecord solid, u32 index, ray3 r, real t_min, ENDS Boundary* boundaries,
+                              u32* near) {
     const ray3 own = ray_at(solid, r);
     segments h;
     u32 count;
-    if (collect_many(g, solid, index, own, t_min, ends, &count, near)) return count;
+    if (collect_many(g, solid, index, own, t_min, boundaries, &count, near)) return count;
     h = collect_few(g, solid, own, t_min);
-    if (ends && h.count > 0) put_segment(ends, index, h.in0, h.in0_surface, h.out0, h.out0_surface);
-    if (ends && h.count > 1) put_segment(ends + 2, index, h.in1, h.in1_surface, h.out1, h.out1_surface);
+    if (boundaries && h.count > 0) put_segment(boundaries, index, h.in0, h.in0_surface, h.out0, h.out0_surface);
+    if (boundaries && h.count > 1) put_segment(boundaries + 2, index, h.in1, h.in1_surface, h.out1, h.out1_surface);
     return h.count;
 }
 
-// Returns how many segments of the solid end at t_min or later. Their boundaries are stored from `ends` on, unless it
-// is 0: two a segment, in then out, by ascending distance. `index` is the solid's own.
-WHOLE_FN u32 collect(Geometry g, SolidRecord solid, u32 index, ray3 r, real t_min, ENDS End* ends) {
+// Returns how many segments of the solid end at t_min or later. Their boundaries are stored from `boundaries` on,
+// unless it is 0: two a segment, in then out, by ascending distance. `index` is the solid's own.
+WHOLE_FN u32 collect(Geometry g, SolidRecord solid, u32 index, ray3 r, real t_min, ENDS Boundary* boundaries) {
     u32 near = 0;
-    const u32 count = collect_as_it_is(g, solid, index, r, t_min, ends, &near);
+    const u32 count = collect_as_it_is(g, solid, index, r, t_min, boundaries, &near);
 #if (CSGRT_SOLIDS) & FLAT_FACED
-    if (near) return collect_beside(g, solid, index, r, t_min, ends, count);
+    if (near) return collect_beside(g, solid, index, r, t_min, boundaries, count);
 #endif
     return count;
 }

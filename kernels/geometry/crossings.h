@@ -16,10 +16,10 @@
 
 #include "segments.h"
 
-#define LEAVES 0x80000000u  // set in End.surface of a boundary where the ray leaves such a solid
+#define LEAVES 0x80000000u  // set in Boundary.surface of a boundary where the ray leaves such a solid
 
 typedef struct {
-    ENDS End* ends;  // memory for the solid's boundaries; 0: they are only counted
+    ENDS Boundary* boundaries;  // memory for the solid's boundaries; 0: they are only counted
     u32 solid;
     real t_min;         // segments that end before this are not wanted
     u32 behind, ahead;  // crossings before t_min, and the others
@@ -28,9 +28,9 @@ typedef struct {
     u32 missed;  // set in the boundaries' surfaces: MISSED_...
 } crossings;
 
-FN crossings no_crossings(u32 solid, real t_min, ENDS End* ends) {
+FN crossings no_crossings(u32 solid, real t_min, ENDS Boundary* boundaries) {
     crossings c;
-    c.ends = ends;
+    c.boundaries = boundaries;
     c.solid = solid;
     c.t_min = t_min;
     c.behind = c.ahead = c.last_surface = c.missed = 0;
@@ -39,15 +39,16 @@ FN crossings no_crossings(u32 solid, real t_min, ENDS End* ends) {
 }
 
 // Inserts a segment among `count` segments that are sorted by the distance and then the surface of their beginning.
-FN void insert_segment(ENDS End* ends, u32 count, End in, End out) {
+FN void insert_segment(ENDS Boundary* boundaries, u32 count, Boundary in, Boundary out) {
     u32 i = count;
-    while (i > 0 && (ends[2 * i - 2].t > in.t || (ends[2 * i - 2].t == in.t && ends[2 * i - 2].surface > in.surface))) {
-        ends[2 * i] = ends[2 * i - 2];
-        ends[2 * i + 1] = ends[2 * i - 1];
+    while (i > 0 && (boundaries[2 * i - 2].t > in.t ||
+                     (boundaries[2 * i - 2].t == in.t && boundaries[2 * i - 2].surface > in.surface))) {
+        boundaries[2 * i] = boundaries[2 * i - 2];
+        boundaries[2 * i + 1] = boundaries[2 * i - 1];
         --i;
     }
-    ends[2 * i] = in;
-    ends[2 * i + 1] = out;
+    boundaries[2 * i] = in;
+    boundaries[2 * i + 1] = out;
 }
 
 // Adds a crossing. Crossings at one t are ordered by surface, so the order in which they are found does not matter.
@@ -61,17 +62,18 @@ FN crossings cross(crossings c, real t, u32 surface) {
         ++c.behind;
         return c;
     }
-    if (c.ends) {
+    if (c.boundaries) {
         u32 i = c.ahead;
-        End e;
-        while (i > 0 && (c.ends[i - 1].t > t || (c.ends[i - 1].t == t && c.ends[i - 1].surface > surface))) {
-            c.ends[i] = c.ends[i - 1];
+        Boundary e;
+        while (i > 0 &&
+               (c.boundaries[i - 1].t > t || (c.boundaries[i - 1].t == t && c.boundaries[i - 1].surface > surface))) {
+            c.boundaries[i] = c.boundaries[i - 1];
             --i;
         }
         e.t = t;
         e.solid = c.solid;
         e.surface = surface;
-        c.ends[i] = e;
+        c.boundaries[i] = e;
     }
     ++c.ahead;
     return c;
@@ -82,17 +84,17 @@ FN u32 close_crossings(crossings c) {
     u32 inside = c.behind & 1u;  // whether the ray is inside at t_min
     u32 count = c.ahead + inside, i;
     if (c.ahead == 0) return 0;
-    if (c.ends) {
+    if (c.boundaries) {
         if (inside) {
-            End e;
-            for (i = c.ahead; i > 0; --i) c.ends[i] = c.ends[i - 1];
+            Boundary e;
+            for (i = c.ahead; i > 0; --i) c.boundaries[i] = c.boundaries[i - 1];
             e.t = c.last;
             e.solid = c.solid;
             e.surface = c.last_surface;
-            c.ends[0] = e;
+            c.boundaries[0] = e;
         }
-        if (count & 1u) c.ends[count] = c.ends[count - 1];
-        for (i = 1; i <= count; i += 2) c.ends[i].surface |= LEAVES;
+        if (count & 1u) c.boundaries[count] = c.boundaries[count - 1];
+        for (i = 1; i <= count; i += 2) c.boundaries[i].surface |= LEAVES;
     }
     return (count + 1) / 2;
 }
@@ -104,32 +106,32 @@ FN u32 close_marked_crossings(crossings c, u32 outs) {
     u32 inside = c.behind > 0 && !(c.last_surface & LEAVES);  // whether the ray is inside at t_min
     u32 count = (c.ahead + 1) / 2, kept = 0, out = outs, i;
     if (count < outs) count = outs;
-    if (!c.ends || count == 0) return count;
+    if (!c.boundaries || count == 0) return count;
     // The crossings that stay: the outs, and ins before an out.
     for (i = 0; i < c.ahead; ++i)
-        if ((c.ends[i].surface & LEAVES) || (i + 1 < c.ahead && (c.ends[i + 1].surface & LEAVES))) {
-            End e = c.ends[i];
-            c.ends[kept++] = e;
+        if ((c.boundaries[i].surface & LEAVES) || (i + 1 < c.ahead && (c.boundaries[i + 1].surface & LEAVES))) {
+            Boundary e = c.boundaries[i];
+            c.boundaries[kept++] = e;
         }
     // The loop runs from the back, because pairs take more room.
     {
-        End last = c.ends[kept > 0 ? kept - 1 : 0];
+        Boundary last = c.boundaries[kept > 0 ? kept - 1 : 0];
         for (i = outs; i < count; ++i) {
-            c.ends[2 * i] = last;
-            c.ends[2 * i + 1] = last;
+            c.boundaries[2 * i] = last;
+            c.boundaries[2 * i + 1] = last;
         }
     }
     while (out > 0) {
-        End e = c.ends[--kept], in = e;
+        Boundary e = c.boundaries[--kept], in = e;
         --out;
         if (kept > 0) {
-            if (!(c.ends[kept - 1].surface & LEAVES)) in = c.ends[--kept];
+            if (!(c.boundaries[kept - 1].surface & LEAVES)) in = c.boundaries[--kept];
         } else if (inside) {
             in.t = c.last;
             in.surface = c.last_surface;
         }
-        c.ends[2 * out] = in;
-        c.ends[2 * out + 1] = e;
+        c.boundaries[2 * out] = in;
+        c.boundaries[2 * out + 1] = e;
     }
     return count;
 }

@@ -96,14 +96,14 @@ FN u32 plate_collect(Geometry g, SolidRecord solid, ray3 r, crossings c, beside 
         if (b.step) w.t = moved_back(w, b, place, r);
         s = plate_span(w, words, extents, skin, c.t_min);
         if (!(s.low < s.high)) continue;
-        if (c.ends) {
-            End in, out;
+        if (c.boundaries) {
+            Boundary in, out;
             in.t = s.low;
             out.t = s.high;
             in.solid = out.solid = c.solid;
             in.surface = w.triangle | c.missed;
             out.surface = in.surface | LEAVES;
-            insert_segment(c.ends, count, in, out);
+            insert_segment(c.boundaries, count, in, out);
         }
         ++count;
     }

@@ -13,11 +13,11 @@ FN packet_vec3 seen_normals(const packet* p, Geometry g, u32 hit_mask, double8 t
     u32 rest = hit_mask, k;
     while (rest) {
         const u32 first = lowest(rest);
-        const End seen = p->sweeps[first].seen;
+        const Boundary seen = p->sweeps[first].seen;
         const SolidRecord solid = g.solids[seen.solid];
         u32 same = 0;
         for (k = first; k < PACKET; ++k) {
-            const End other = p->sweeps[k].seen;
+            const Boundary other = p->sweeps[k].seen;
             same |= other.solid == seen.solid && other.surface == seen.surface ? 1u << k & rest : 0;
         }
         if (!takes_packets(solid)) same = 1u << first;

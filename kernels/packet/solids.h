@@ -55,9 +55,9 @@ FN u32 take_solid_by_packet(packet* p, Geometry g, u32 index, u32 active_mask) {
             vstore8(h.out0_surface, 0, out_surface);
             for (; found; found &= found - 1u) {
                 const u32 k = lowest(found);
-                End ends[2];
-                put_segment(ends, index, in[k], (u32)in_surface[k], out[k], (u32)out_surface[k]);
-                if (!take_segment(p->sweeps + k, solid, ends[0], ends[1])) overflow_mask |= 1u << k;
+                Boundary boundaries[2];
+                put_segment(boundaries, index, in[k], (u32)in_surface[k], out[k], (u32)out_surface[k]);
+                if (!take_segment(p->sweeps + k, solid, boundaries[0], boundaries[1])) overflow_mask |= 1u << k;
                 p->next_events[k] = next_event_of(p, k);
             }
         }

@@ -56,7 +56,7 @@ FN Pixel hit_pixel(sight s, ray3 r) {
 // solid ends (`from_within`), that solid's surface is seen from within: the normal is flipped. Only here is a normal
 // computed: one a ray. If a plane of the frame cuts the region open, the plane is seen, and no solid's surface.
 FN Pixel seen_pixel(GLOBAL const Frame* f, GLOBAL const LightRecord* lights, MaterialRecord m, Geometry g, ray3 r,
-                    view_range visible, End seen, u32 from_within, u32 region) {
+                    view_range visible, Boundary seen, u32 from_within, u32 region) {
     const real near = parameter_at(r, visible.near);
     const u32 is_cut = visible.plane != NO_PLANE && seen.t < near;
     vec3 n;

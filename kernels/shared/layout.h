@@ -332,18 +332,19 @@ typedef struct {
     real t;
     u32 solid;
     u32 surface;  // which surface of the solid, see geometry/<solid>.h; and MISSED_...
-} End;
+} Boundary;
 
-// Marks in End.surface of both boundaries of a segment. The ray touches the solid along the segment, as far as rounding
-// lets csgrt tell, because it runs in a face of the solid or along its wall. If the ray is moved a little to the mark's
-// side, it misses the solid. Above and below are where ABOVE_Y and ABOVE_Z point, and against them; left and right are
-// across both this direction and the ray (geometry/touch.h). boolean/claim.h uses the marks.
+// Marks in Boundary.surface of both boundaries of a segment. The ray touches the solid along the segment, as far as
+// rounding lets csgrt tell, because it runs in a face of the solid or along its wall. If the ray is moved a little to
+// the mark's side, it misses the solid. Above and below are where ABOVE_Y and ABOVE_Z point, and against them; left and
+// right are across both this direction and the ray (geometry/touch.h). boolean/claim.h uses the marks.
 #define MISSED_ABOVE 0x40000000u
 #define MISSED_BELOW 0x20000000u
 #define MISSED_LEFT 0x10000000u
 #define MISSED_RIGHT 0x08000000u
 #define MISSED (MISSED_ABOVE | MISSED_BELOW | MISSED_LEFT | MISSED_RIGHT)
-#define SURFACE_MASK 0x07ffffffu  // the other bits of End.surface; LEAVES (geometry/crossings.h) is the highest bit
+#define SURFACE_MASK \
+    0x07ffffffu  // the other bits of Boundary.surface; LEAVES (geometry/crossings.h) is the highest bit
 // The sides of a ray in a face: the ray as it is, side 0, and the four sides to which it is moved.
 #define SIDES 5u
 FN u32 missed_on(u32 side) { return side == 0 ? 0 : MISSED_ABOVE >> (side - 1u); }
@@ -352,11 +353,11 @@ FN u32 missed_on(u32 side) { return side == 0 ? 0 : MISSED_ABOVE >> (side - 1u);
 // A deep ray, and how far it is swept. Positions count its sorted boundaries.
 typedef struct {
     u32 ray;
-    u32 block, segment;   // blocks of boundaries to sort, and segments, of the deep rays before it
-    u32 event, at;        // the position of the event that is passed, and of the one behind it
-    u32 changed;          // the segments of boundaries before this position have been opened and closed
-    u32 in_end, out_end;  // of the event: see weave
-    u32 open, last;       // nodes: see weave
+    u32 block, segment;             // blocks of boundaries to sort, and segments, of the deep rays before it
+    u32 event, at;                  // the position of the event that is passed, and of the one behind it
+    u32 changed;                    // the segments of boundaries before this position have been opened and closed
+    u32 in_boundary, out_boundary;  // of the event: see weave
+    u32 open, last;                 // nodes: see weave
     u32 open_solids;
     u32 partitions;  // woven
     u32 sides;       // SIDES: some segment has MISSED_... set; else 1
@@ -372,9 +373,8 @@ typedef struct {
 
 // 3 weave -> evaluate: linked lists by index into the ray's own 2 * segments nodes.
 typedef struct {
-    u32 in_end, out_end;  // boundaries (2 * segment + side) of this ray that bound the partition; NONE: the node is
-                          // free
-    u32 next;             // before weaving: the boundary at this position by distance; NONE: the last node
+    u32 in_boundary, out_boundary;  // indices, 2 * segment + side, among the ray's; NONE: the node is free
+    u32 next;                       // before weaving: the boundary at this position by distance; NONE: the last node
     u32 owner;  // before evaluation: the ray; after it: the region that claimed the partition, or NONE; OVERLAP is set
                 // if several regions of its rank claim it
 } PartitionNode;
@@ -383,7 +383,7 @@ typedef struct {
 // The first partition of a ray, whose nodes stand in the order of its events; NONE: it has none.
 FN u32 first_partition(GLOBAL const PartitionNode* nodes, u32 segments) {
     u32 k = 0;
-    while (k < partitions_of(segments) && nodes[k].in_end == NONE) ++k;
+    while (k < partitions_of(segments) && nodes[k].in_boundary == NONE) ++k;
     return k < partitions_of(segments) ? k : NONE;
 }
 
@@ -396,8 +396,8 @@ typedef struct {
 // 6 rows: the boundaries of a row of the answer to a list, as indices among the batch's; NONE: the ray's range cuts the
 // row there.
 typedef struct {
-    u32 ray, in_end, out_end;
-} RowEnds;
+    u32 ray, in_boundary, out_boundary;
+} RowBoundaries;
 
 // 6 rows -> the host: a partition that several regions of the owner's rank claim, and its node among the ray's.
 typedef struct {

@@ -32,10 +32,10 @@ public:
         return bytes;
     }
     virtual std::size_t ray_bytes() const = 0;
-    virtual std::size_t end_bytes() const = 0;
+    virtual std::size_t boundary_bytes() const = 0;
     virtual std::size_t overlap_bytes() const = 0;
     virtual std::size_t wide_bytes() const = 0;
-    virtual std::vector<kernel::End> ends(const std::vector<std::byte>& bytes) const = 0;
+    virtual std::vector<kernel::Boundary> boundaries(const std::vector<std::byte>& bytes) const = 0;
     virtual std::vector<kernel::OverlapRecord> overlap_records(const std::vector<std::byte>& bytes) const = 0;
 };
 

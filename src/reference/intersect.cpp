@@ -12,14 +12,14 @@ kernel::ray3 to_kernel(const Ray& r) {
 }
 
 /// Appends the boundaries of one solid's segments.
-void append_ends(const kernel::Geometry& g, std::uint32_t solid, const kernel::ray3& r, double t_min,
-                 std::vector<kernel::End>& ends) {
+void append_boundaries(const kernel::Geometry& g, std::uint32_t solid, const kernel::ray3& r, double t_min,
+                       std::vector<kernel::Boundary>& boundaries) {
     const kernel::SolidRecord& record = g.solids[solid];
     const std::uint32_t segments = kernel::collect(g, record, solid, r, t_min, nullptr);
     if (segments == 0) return;
-    const std::size_t first = ends.size();
-    ends.resize(first + 2 * std::size_t{segments});
-    kernel::collect(g, record, solid, r, t_min, ends.data() + first);
+    const std::size_t first = boundaries.size();
+    boundaries.resize(first + 2 * std::size_t{segments});
+    kernel::collect(g, record, solid, r, t_min, boundaries.data() + first);
 }
 
 }  // namespace
@@ -27,15 +27,15 @@ void append_ends(const kernel::Geometry& g, std::uint32_t solid, const kernel::r
 std::vector<SolidSegment> intersect_solid(const CompiledScene& scene, std::uint32_t solid, const Ray& ray,
                                           Quartic quartic) {
     const kernel::ray3 r = to_kernel(ray);
-    std::vector<kernel::End> ends;
-    append_ends(tables(scene, quartic), solid, r, -std::numeric_limits<double>::infinity(), ends);
-    const auto normal = [&](const kernel::End& end) {
+    std::vector<kernel::Boundary> boundaries;
+    append_boundaries(tables(scene, quartic), solid, r, -std::numeric_limits<double>::infinity(), boundaries);
+    const auto normal = [&](const kernel::Boundary& end) {
         const kernel::vec3 n = kernel::normal_at(tables(scene), scene.solids[solid], r, end.t, end.surface);
         return Vec3{n.x, n.y, n.z};
     };
     std::vector<SolidSegment> segments;
-    for (std::size_t i = 0; i < ends.size(); i += 2) {
-        const kernel::End &in = ends[i], &out = ends[i + 1];
+    for (std::size_t i = 0; i < boundaries.size(); i += 2) {
+        const kernel::Boundary &in = boundaries[i], &out = boundaries[i + 1];
         // Aside of a face a ray may have the segments on the face's other side, too (kernels/geometry/beside.h).
         if ((in.surface & MISSED) && !(in.t < out.t)) continue;  // unused room
         if ((in.surface & MISSED) && !segments.empty() && in.t <= segments.back().out) {

@@ -18,7 +18,7 @@ namespace {
 
 /// A partition that at least one region claims.
 struct ClaimedPartition {
-    kernel::End in, out;                   ///< the boundaries of the partition; their t is the partition's
+    kernel::Boundary in, out;              ///< the boundaries of the partition; their t is the partition's
     bool in_leaves = false;                ///< `in` is where its solid ends (a subtraction exposes this surface)
     bool out_enters = false;               ///< `out` is where its solid begins
     std::uint32_t region = 0;              ///< the lowest claimant
@@ -29,14 +29,14 @@ struct ClaimedPartition {
 
 // One ray's answer, and the memory that the next ray uses again.
 struct Reference::RayAnswer {
-    std::vector<kernel::End> ends;
+    std::vector<kernel::Boundary> boundaries;
     std::vector<ClaimedPartition> partitions;
     Weaver weaver;
     std::vector<std::uint32_t> solids, table,
         claimants;                      ///< of a partition: its solids, their regions, the regions that claim it
     std::vector<std::uint32_t> beside;  ///< the same on one side of a face that the ray runs in
     std::vector<std::uint8_t> values;   ///< of a tree's operands, while it is evaluated
-    std::vector<kernel::End> row_ends;  ///< of a list's ray
+    std::vector<kernel::Boundary> row_boundaries;  ///< of a list's ray
     std::vector<kernel::PartitionNode> nodes;
     std::vector<kernel::OverlapRecord> overlap_records;
     std::size_t woven = 0, overlaps = 0;
@@ -100,13 +100,13 @@ bool Reference::inside(std::uint32_t region, const std::vector<std::uint32_t>& s
     return !values.empty() && values.back() != 0;
 }
 
-bool Reference::in_contact(const WovenPartition& partition, const std::vector<kernel::End>& ends) {
+bool Reference::in_contact(const WovenPartition& partition, const std::vector<kernel::Boundary>& boundaries) {
     return std::any_of(partition.segments.begin(), partition.segments.end(),
-                       [&](std::uint32_t segment) { return (ends[2 * segment].surface & MISSED) != 0; });
+                       [&](std::uint32_t segment) { return (boundaries[2 * segment].surface & MISSED) != 0; });
 }
 
-bool Reference::is_one_solid(const WovenPartition& partition, const std::vector<kernel::End>& ends) {
-    const auto solid = [&](std::uint32_t segment) { return ends[2 * segment].solid; };
+bool Reference::is_one_solid(const WovenPartition& partition, const std::vector<kernel::Boundary>& boundaries) {
+    const auto solid = [&](std::uint32_t segment) { return boundaries[2 * segment].solid; };
     return std::ranges::all_of(partition.segments,
                                [&](std::uint32_t segment) { return solid(segment) == solid(partition.segments[0]); });
 }
@@ -118,7 +118,7 @@ void Reference::find_claimants(const WovenPartition& partition, std::uint32_t mi
     table.clear();
     claimants.clear();
     for (const std::uint32_t segment : partition.segments) {
-        const kernel::End& end = answer.ends[2 * segment];
+        const kernel::Boundary& end = answer.boundaries[2 * segment];
         if (!(end.surface & missed)) solids.push_back(end.solid);
     }
     std::sort(solids.begin(), solids.end());
@@ -153,8 +153,8 @@ void Reference::evaluate(const kernel::Frame& frame, const kernel::RayRecord& ra
     answer.partitions.clear();
     answer.woven = answer.overlaps = 0;
     answer.first_seen = SIZE_MAX;
-    const std::span<const WovenPartition> woven = kernels_.trace(frame, ray, near_, answer.ends, answer.weaver);
-    if (answer.ends.empty()) return;
+    const std::span<const WovenPartition> woven = kernels_.trace(frame, ray, near_, answer.boundaries, answer.weaver);
+    if (answer.boundaries.empty()) return;
     answer.woven = woven.size();
     const bool is_picture = frame.work != WORK_RAYS;
     ReferenceKernels::Seen seen{0, std::numeric_limits<double>::infinity(), 0};
@@ -163,7 +163,7 @@ void Reference::evaluate(const kernel::Frame& frame, const kernel::RayRecord& ra
 
     const std::vector<std::uint32_t>& claimants = answer.claimants;
     for (const WovenPartition& partition : woven) {
-        if (seen.beyond || (in_contact(partition, answer.ends) && !is_one_solid(partition, answer.ends))) {
+        if (seen.beyond || (in_contact(partition, answer.boundaries) && !is_one_solid(partition, answer.boundaries))) {
             find_beside(partition, seen.beyond, answer);
         } else {
             find_claimants(partition, 0, answer, answer.claimants);
@@ -172,12 +172,12 @@ void Reference::evaluate(const kernel::Frame& frame, const kernel::RayRecord& ra
         if (claimants.empty()) continue;
 
         ClaimedPartition claim;
-        claim.in = answer.ends[partition.in_end];
-        claim.out = answer.ends[partition.out_end];
+        claim.in = answer.boundaries[partition.in_boundary];
+        claim.out = answer.boundaries[partition.out_boundary];
         claim.in.t = partition.in;
         claim.out.t = partition.out;
-        claim.in_leaves = partition.in_end % 2 == 1;
-        claim.out_enters = partition.out_end % 2 == 0;
+        claim.in_leaves = partition.in_boundary % 2 == 1;
+        claim.out_enters = partition.out_boundary % 2 == 0;
         claim.region = claimants.front();
         if (claimants.size() > 1) claim.claimants = claimants;
         const bool is_in_range = partition.out > seen.after && partition.in < seen.before && seen.after < seen.before;
@@ -225,12 +225,12 @@ std::vector<kernel::Pixel> Reference::render(const PreparedFrame& prepared, Watc
                 const kernel::MaterialRecord& material = scene_.materials[hit.region];
                 pixel = kernels_.hit_pixel(frame, prepared.lights, hit.region, material, ray, hit.in, hit.in_leaves);
             }
-            pixel.depth = static_cast<std::uint32_t>(answer.ends.size() / 2);
+            pixel.depth = static_cast<std::uint32_t>(answer.boundaries.size() / 2);
             pixel.partitions = static_cast<std::uint32_t>(answer.woven);
             pixel.overlap = static_cast<std::uint32_t>(answer.overlaps);
             pixels[i] = pixel;
-            sum.ends += answer.ends.size();
-            sum.segments += answer.ends.size() / 2;
+            sum.ends += answer.boundaries.size();
+            sum.segments += answer.boundaries.size() / 2;
             sum.partitions += answer.woven;
             sum.overlaps += answer.overlaps;
         }
@@ -247,17 +247,17 @@ std::vector<kernel::Pixel> Reference::render(const PreparedFrame& prepared, Watc
 void Reference::append_rows(const kernel::Frame& frame, const kernel::RayRecord& record, std::uint32_t ray,
                             Fields fields, RayAnswer& answer, RowMemory& rows) const {
     const std::size_t count = answer.partitions.size();
-    answer.row_ends.assign(4 * count, kernel::End{});
+    answer.row_boundaries.assign(4 * count, kernel::Boundary{});
     answer.nodes.assign(2 * ((count + 1) / 2), kernel::PartitionNode{NONE, NONE, NONE, NONE});
     for (std::uint32_t i = 0; i < count; ++i) {
         const ClaimedPartition& claim = answer.partitions[i];
         const std::uint32_t in = 4 * i + (claim.in_leaves ? 1 : 0), out = 4 * i + (claim.out_enters ? 2 : 3);
-        answer.row_ends[in] = claim.in;
-        answer.row_ends[out] = claim.out;
+        answer.row_boundaries[in] = claim.in;
+        answer.row_boundaries[out] = claim.out;
         answer.nodes[i] = {in, out, i + 1 < count ? i + 1 : NONE,
                            claim.region | (claim.claimants.empty() ? 0 : OVERLAP)};
     }
-    kernels_.append_rows(frame, record, answer.row_ends, answer.nodes, fields, rows, answer.overlap_records);
+    kernels_.append_rows(frame, record, answer.row_boundaries, answer.nodes, fields, rows, answer.overlap_records);
     if (!fields.overlaps) return;
     for (const kernel::OverlapRecord& overlap_record : answer.overlap_records)
         append_overlap(ray, overlap_record.in, overlap_record.out, answer.partitions[overlap_record.node].claimants,
@@ -277,8 +277,8 @@ void Reference::trace(const kernel::Frame& frame, const RayList& list, RowReceiv
             evaluate(frame, record, answer);
             append_rows(frame, record, static_cast<std::uint32_t>(i - begin), receiver.fields(), answer, rows);
             rows.places.push_back({static_cast<std::uint32_t>(rows.regions.size()), 0});
-            sum.ends += answer.ends.size();
-            sum.segments += answer.ends.size() / 2;
+            sum.ends += answer.boundaries.size();
+            sum.segments += answer.boundaries.size() / 2;
             sum.partitions += answer.woven;
             sum.overlaps += answer.overlap_records.size();
         }

@@ -33,8 +33,8 @@ public:
 private:
     struct RayAnswer;
     /// Does the ray run in a face of one of its solids?
-    static bool in_contact(const WovenPartition& partition, const std::vector<kernel::End>& ends);
-    static bool is_one_solid(const WovenPartition& partition, const std::vector<kernel::End>& ends);
+    static bool in_contact(const WovenPartition& partition, const std::vector<kernel::Boundary>& boundaries);
+    static bool is_one_solid(const WovenPartition& partition, const std::vector<kernel::Boundary>& boundaries);
     /// The regions of the first rank that claim a partition, ascending, by its solids except those whose boundaries
     /// have any of the marks `missed`.
     void find_claimants(const WovenPartition& partition, std::uint32_t missed, RayAnswer& answer,

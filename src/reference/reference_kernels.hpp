@@ -22,13 +22,13 @@ public:
     /// is `weaver`'s. In double every near solid is tried; in single precision every solid; in 113 bits, which are
     /// slow, the solids whose boxes are met. Segments that end before the frame's t_min are left out.
     virtual std::span<const WovenPartition> trace(const kernel::Frame& frame, const kernel::RayRecord& ray,
-                                                  const NearSolids& near, std::vector<kernel::End>& ends,
+                                                  const NearSolids& near, std::vector<kernel::Boundary>& boundaries,
                                                   Weaver& weaver) const = 0;
-    /// Adds a listed ray's rows (kernels/boolean/rows.h), and its partitions that overlap. `nodes` and `ends`: the
-    /// ray's, as kernel 4 leaves them.
+    /// Adds a listed ray's rows (kernels/boolean/rows.h), and its partitions that overlap. `nodes` and `boundaries`:
+    /// the ray's, as kernel 4 leaves them.
     virtual void append_rows(const kernel::Frame& frame, const kernel::RayRecord& ray,
-                             const std::vector<kernel::End>& ends, const std::vector<kernel::PartitionNode>& nodes,
-                             Fields fields, RowMemory& rows,
+                             const std::vector<kernel::Boundary>& boundaries,
+                             const std::vector<kernel::PartitionNode>& nodes, Fields fields, RowMemory& rows,
                              std::vector<kernel::OverlapRecord>& overlap_records) const = 0;
     /// The visible range of a picture's ray, in the form that is compared with boundaries (kernels/traversal/view.h),
     /// and the sides that planes of the view cut away (MISSED_...).
@@ -40,7 +40,7 @@ public:
     /// A pixel that shows a region's surface at a boundary; `leaves`: from within.
     virtual kernel::Pixel hit_pixel(const kernel::Frame& frame, const std::vector<kernel::LightRecord>& lights,
                                     std::uint32_t region, const kernel::MaterialRecord& material, const Ray& ray,
-                                    const kernel::End& end, bool leaves) const = 0;
+                                    const kernel::Boundary& end, bool leaves) const = 0;
 };
 
 /// Makes kernels by the settings' precision and methods. `scene` must outlive the result. Precision::quad is on the

@@ -16,8 +16,8 @@ namespace csgrt {
 
 struct WovenPartition {
     double in = 0, out = 0;
-    std::uint32_t in_end = 0, out_end = 0;  ///< indices of boundaries: 2 x segment + side
-    std::vector<std::uint32_t> segments;    ///< covering segments, ascending, each once
+    std::uint32_t in_boundary = 0, out_boundary = 0;  ///< indices of boundaries: 2 x segment + side
+    std::vector<std::uint32_t> segments;              ///< covering segments, ascending, each once
 };
 
 /// Memory for one ray after another: new memory for each took a sixth of the time of a ray at a few solids.
@@ -31,25 +31,27 @@ struct Weaver {
     }
 };
 
-/// Makes partitions. `ends`: two boundaries a segment, in then out; their t and the tolerance are in the precision of
-/// the geometry that found them. The partitions are `weaver`'s, until it weaves again.
-template <class End>
-std::span<const WovenPartition> weave(const std::vector<End>& ends, decltype(End::t) tolerance, Weaver& weaver) {
+/// Makes partitions. `boundaries`: two boundaries a segment, in then out; their t and the tolerance are in the
+/// precision of the geometry that found them. The partitions are `weaver`'s, until it weaves again.
+template <class Boundary>
+std::span<const WovenPartition> weave(const std::vector<Boundary>& boundaries, decltype(Boundary::t) tolerance,
+                                      Weaver& weaver) {
     std::vector<std::uint32_t>&order = weaver.order, &covering = weaver.covering, &begun = weaver.begun,
     &ended = weaver.ended, &stay = weaver.stay, &enter = weaver.enter, &next = weaver.next;
     std::vector<WovenPartition>& partitions = weaver.partitions;
-    order.resize(ends.size());
+    order.resize(boundaries.size());
     std::iota(order.begin(), order.end(), 0u);
     std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-        return ends[a].t < ends[b].t || (ends[a].t == ends[b].t && a < b);
+        return boundaries[a].t < boundaries[b].t || (boundaries[a].t == boundaries[b].t && a < b);
     });
 
     std::size_t count = 0;
     covering.clear();
     for (std::size_t begin = 0, end = 0; begin < order.size(); begin = end) {
-        const auto t = ends[order[begin]].t;
+        const auto t = boundaries[order[begin]].t;
         const auto at = static_cast<double>(t);
-        while (end < order.size() && (ends[order[end]].t == t || ends[order[end]].t - t <= tolerance)) ++end;
+        while (end < order.size() && (boundaries[order[end]].t == t || boundaries[order[end]].t - t <= tolerance))
+            ++end;
 
         // The segments that cover the next partition: those that cover the last, less those that end here, and those
         // that begin here, unless they end here too.
@@ -70,17 +72,17 @@ std::span<const WovenPartition> weave(const std::vector<End>& ends, decltype(End
                                             [&](std::uint32_t e) { return e % 2 == side && contains(list, e / 2); });
             return found == order.begin() + static_cast<std::ptrdiff_t>(end) ? NONE : *found;
         };
-        const std::uint32_t in_end = first_of(0, enter), out_end = first_of(1, covering);
-        if (in_end == NONE && out_end == NONE) continue;  // only segments shorter than the tolerance
+        const std::uint32_t in_boundary = first_of(0, enter), out_boundary = first_of(1, covering);
+        if (in_boundary == NONE && out_boundary == NONE) continue;  // only segments shorter than the tolerance
         if (!covering.empty()) {
             partitions[count - 1].out = at;
-            partitions[count - 1].out_end = out_end != NONE ? out_end : in_end;
+            partitions[count - 1].out_boundary = out_boundary != NONE ? out_boundary : in_boundary;
         }
         if (!next.empty()) {
             WovenPartition& partition = weaver.append(count++);
             partition.in = partition.out = at;
-            partition.in_end = in_end != NONE ? in_end : out_end;
-            partition.out_end = 0;
+            partition.in_boundary = in_boundary != NONE ? in_boundary : out_boundary;
+            partition.out_boundary = 0;
             partition.segments = next;
         }
         covering.swap(next);

@@ -62,7 +62,7 @@ TEST_CASE("what a solid's form calls outside or inside is so by the library's se
     const SceneRays rays(scene);
     std::mt19937_64 random(11);
     RayForm form;
-    std::vector<kernel::End> ends;
+    std::vector<kernel::Boundary> boundaries;
     for (std::uint32_t solid = 0; solid < scene.solids.size(); ++solid) {
         CAPTURE(type_name(scene.solids[solid].type), solid);
         std::size_t met = 0, undecided = 0, decided = 0;
@@ -70,19 +70,19 @@ TEST_CASE("what a solid's form calls outside or inside is so by the library's se
             const Vec3 a = test::point_near(scene.solid_boxes[solid], random);
             const Vec3 b = test::point_near(scene.solid_boxes[solid], random);
             const Ray ray{a, {b.x - a.x, b.y - a.y, b.z - a.z}};
-            ends.clear();
-            rays.append_ends(solid, ray, -HUGE_VAL, ends);
-            met += !ends.empty();
+            boundaries.clear();
+            rays.append_boundaries(solid, ray, -HUGE_VAL, boundaries);
+            met += !boundaries.empty();
             form.set(scene, solid, ray);
             for (int k = 0; k < 16; ++k) {
                 const double width = k % 2 ? 1e-4 : 0.3;
                 const double from = static_cast<double>(random() >> 11) * 0x1p-52 - 0.5, to = from + width;
                 double inside = 0;
                 bool near = false;
-                for (std::size_t e = 0; e < ends.size(); e += 2) {
-                    inside += std::max(0.0, std::min(to, ends[e + 1].t) - std::max(from, ends[e].t));
+                for (std::size_t e = 0; e < boundaries.size(); e += 2) {
+                    inside += std::max(0.0, std::min(to, boundaries[e + 1].t) - std::max(from, boundaries[e].t));
                     for (std::size_t side = e; side < e + 2; ++side)
-                        near = near || (ends[side].t > from - 0.01 && ends[side].t < to + 0.01);
+                        near = near || (boundaries[side].t > from - 0.01 && boundaries[side].t < to + 0.01);
                 }
                 const int sign = form.sign(from, to);
                 if (sign > 0) REQUIRE(inside < 1e-9);

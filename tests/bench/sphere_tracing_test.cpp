@@ -17,7 +17,7 @@ TEST_CASE("a bound changes by no more than the distance moved, and is negative i
     const DistanceBounds bounds(scene);
     const SceneRays rays(scene);
     std::mt19937_64 random(5);
-    std::vector<kernel::End> ends;
+    std::vector<kernel::Boundary> boundaries;
     for (std::uint32_t solid = 0; solid < scene.solids.size(); ++solid) {
         CAPTURE(type_name(scene.solids[solid].type), solid);
         double steepest = 0;
@@ -31,12 +31,12 @@ TEST_CASE("a bound changes by no more than the distance moved, and is negative i
             REQUIRE(change <= moved * (1 + 1e-9) + 1e-12);
             steepest = std::max(steepest, change / moved);
 
-            ends.clear();
-            rays.append_ends(solid, {a, {0.3, 0.4, 0.5}}, -HUGE_VAL, ends);
+            boundaries.clear();
+            rays.append_boundaries(solid, {a, {0.3, 0.4, 0.5}}, -HUGE_VAL, boundaries);
             bool inside = false, near = false;
-            for (std::size_t e = 0; e < ends.size(); ++e) {
-                if (ends[e].t < 0) inside = e % 2 == 0;
-                near = near || std::abs(ends[e].t) < 1e-9;
+            for (std::size_t e = 0; e < boundaries.size(); ++e) {
+                if (boundaries[e].t < 0) inside = e % 2 == 0;
+                near = near || std::abs(boundaries[e].t) < 1e-9;
             }
             if (near) continue;
             within += inside;

@@ -59,7 +59,7 @@ namespace csgrt::test {
 struct HostRun {
     std::size_t candidates = 0;
     std::vector<kernel::RayCount> offsets;
-    std::vector<kernel::End> ends;
+    std::vector<kernel::Boundary> boundaries;
     std::vector<kernel::PartitionNode> nodes;
     std::vector<std::uint32_t> bits;
     std::vector<kernel::RayTally> tallies;
@@ -110,7 +110,7 @@ inline HostTiles cull(const CompiledScene& scene, const kernel::Frame& frame) {
 /// they are deep or not. `limit`: ends that a launch passes.
 inline void sweep_rays(const CompiledScene& scene, const kernel::Frame& frame, const kernel::RayRecord* rays,
                        const std::uint32_t* listed, const std::vector<std::uint32_t>& deep,
-                       const std::vector<kernel::RayCount>& offsets, std::vector<kernel::End>& ends,
+                       const std::vector<kernel::RayCount>& offsets, std::vector<kernel::Boundary>& boundaries,
                        std::vector<kernel::PartitionNode>& nodes, std::vector<kernel::RayTally>& tallies,
                        std::uint32_t limit) {
     using namespace kernel;
@@ -130,16 +130,16 @@ inline void sweep_rays(const CompiledScene& scene, const kernel::Frame& frame, c
         u32 field = FIELD_NEXT;
         for (u32 run = DEEP_BLOCK; run < 2 * segments; run *= 2) field ^= FIELD_NEXT ^ FIELD_IN_END;
         for (global_id = 0; global_id <= blocks; ++global_id)
-            sort_deep_blocks(&one, 1, blocks, offsets.data(), ends.data(), nodes.data(), field);
+            sort_deep_blocks(&one, 1, blocks, offsets.data(), boundaries.data(), nodes.data(), field);
         for (u32 run = DEEP_BLOCK; run < 2 * segments; run *= 2) {
             for (global_id = 0; global_id <= blocks; ++global_id)
-                merge_deep_runs(&one, 1, blocks, offsets.data(), ends.data(), nodes.data(), field, run);
+                merge_deep_runs(&one, 1, blocks, offsets.data(), boundaries.data(), nodes.data(), field, run);
             field ^= FIELD_NEXT ^ FIELD_IN_END;
         }
         std::vector<DeepSegment> of_segments(segments);
         for (u32 passed = 0; passed < 2 * segments; passed += limit)
             for (global_id = 0; global_id < 2; ++global_id)
-                sweep_deep_rays(&frame, rays, listed, &one, 0, 0, 1, offsets.data(), ends.data(), nodes.data(),
+                sweep_deep_rays(&frame, rays, listed, &one, 0, 0, 1, offsets.data(), boundaries.data(), nodes.data(),
                                 of_segments.data(), status.data(), cluster_words, regions, tree.links.data(),
                                 tree.first_leaves.data(), tree.leaves.data(), limit, tallies.data());
         if (status != clear) throw std::logic_error("a ray left its status behind");
@@ -182,7 +182,7 @@ inline HostRun run_kernels(const CompiledScene& scene, const PreparedFrame& prep
     each([&] {
         find_candidates(&frame, scene.nodes.data(), lists, rays.data(), listed, places.data(), candidates.data());
     });
-    std::vector<End> found(2 * candidates.size());
+    std::vector<Boundary> found(2 * candidates.size());
     each_of(candidates.size(), [&] {
         count_segments(&frame, scene.solids.data(), scene.reals.data(), scene.planes.data(), scene.words.data(),
                        scene.inner_nodes.data(), rays.data(), listed, places.data(), candidates.data(), found.data());
@@ -195,41 +195,42 @@ inline HostRun run_kernels(const CompiledScene& scene, const PreparedFrame& prep
     run.offsets.resize(count + 1);
     each([&] { sum_segments(&frame, places.data(), candidates.data(), 0, run.offsets.data(), nullptr); });
     const RayCount sum = scan(run.offsets);
-    run.ends.resize(2 * std::size_t{sum.segments});
-    run.nodes.resize(run.ends.size());
-    run.bits.resize(std::max<std::size_t>(sum.words, run.ends.size()));
+    run.boundaries.resize(2 * std::size_t{sum.segments});
+    run.nodes.resize(run.boundaries.size());
+    run.bits.resize(std::max<std::size_t>(sum.words, run.boundaries.size()));
     run.tallies.resize(count);
     std::vector<float> values(13 * count);
     each_of(candidates.size(), [&] {
         store_segments(&frame, scene.solids.data(), scene.reals.data(), scene.planes.data(), scene.words.data(),
                        scene.inner_nodes.data(), rays.data(), listed, places.data(), candidates.data(), found.data(),
-                       run.offsets.data(), run.ends.data(), run.bits.data());
+                       run.offsets.data(), run.boundaries.data(), run.bits.data());
     });
     each_of(candidates.size(), [&] {
         store_in_faces(&frame, scene.solids.data(), scene.reals.data(), scene.planes.data(), scene.words.data(),
                        scene.inner_nodes.data(), rays.data(), listed, places.data(), candidates.data(),
-                       run.offsets.data(), run.ends.data(), run.bits.data());
+                       run.offsets.data(), run.boundaries.data(), run.bits.data());
     });
-    each_of(run.ends.size(),
-            [&] { order_ends(&frame, run.offsets.data(), run.ends.data(), run.bits.data(), run.nodes.data()); });
+    each_of(run.boundaries.size(), [&] {
+        order_boundaries(&frame, run.offsets.data(), run.boundaries.data(), run.bits.data(), run.nodes.data());
+    });
     each([&] {
-        kernel::weave(&frame, rays.data(), listed, run.offsets.data(), run.ends.data(), run.nodes.data(),
+        kernel::weave(&frame, rays.data(), listed, run.offsets.data(), run.boundaries.data(), run.nodes.data(),
                       run.bits.data(), run.tallies.data());
     });
-    each_of(run.ends.size(), [&] {
+    each_of(run.boundaries.size(), [&] {
         evaluate(&frame, scene.solids.data(), scene.starts.data(), scene.trees.data(), rays.data(), listed,
-                 run.offsets.data(), run.ends.data(), run.bits.data(), run.nodes.data());
+                 run.offsets.data(), run.boundaries.data(), run.bits.data(), run.nodes.data());
     });
     std::vector<u32> deep;
     for (u32 ray = 0; ray < count; ++ray)
         if (run.offsets[ray + 1].segments - run.offsets[ray].segments > DEEP_SEGMENTS) deep.push_back(ray);
     if (!deep.empty())
-        sweep_rays(scene, frame, rays.data(), listed, deep, run.offsets, run.ends, run.nodes, run.tallies, 1000);
+        sweep_rays(scene, frame, rays.data(), listed, deep, run.offsets, run.boundaries, run.nodes, run.tallies, 1000);
     if (rays.empty()) {
         each([&] {
             shade(&frame, scene.solids.data(), scene.reals.data(), scene.planes.data(), scene.words.data(),
                   scene.inner_nodes.data(), scene.materials.data(), prepared.lights.data(), scene.display.data(),
-                  listed, run.offsets.data(), run.ends.data(), run.nodes.data(), run.tallies.data(), nullptr,
+                  listed, run.offsets.data(), run.boundaries.data(), run.nodes.data(), run.tallies.data(), nullptr,
                   values.data());
         });
         run.picture = picture_of(frame, numbers, values, 13);

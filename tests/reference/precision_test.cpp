@@ -118,25 +118,25 @@ TEST_CASE("113 bits give the true ends to the last bit of a double", "[geometry]
             for (const Ray& ray : rays) {
                 const oracle::Answer answer = oracle::intersect(solid, ray);
                 if (answer.tie) continue;
-                std::vector<kernel::End> ends;
+                std::vector<kernel::Boundary> boundaries;
                 Weaver weaver;
-                kernels->trace(frame, test::records_of({ray}).front(), near, ends, weaver);
-                REQUIRE(ends.size() == 2 * answer.intervals.size());
-                for (std::size_t i = 0; i < ends.size(); ++i, ++ends_seen) {
+                kernels->trace(frame, test::records_of({ray}).front(), near, boundaries, weaver);
+                REQUIRE(boundaries.size() == 2 * answer.intervals.size());
+                for (std::size_t i = 0; i < boundaries.size(); ++i, ++ends_seen) {
                     const auto& interval = answer.intervals[i / 2];
                     const double t = i % 2 ? interval.out.t : interval.in.t;
                     const double ulp = std::nextafter(std::fabs(t), 1e300) - std::fabs(t);
-                    most = std::fmax(most, std::fabs(ends[i].t - t) / ulp);
+                    most = std::fmax(most, std::fabs(boundaries[i].t - t) / ulp);
                 }
             }
             return most;
         };
         std::vector<Ray> rays;
         for (int i = 0; i < 200; ++i) rays.push_back(maker.make(oracle::RayFamily::ordinary));
-        std::size_t ends = 0;
-        const double by_quad = worst(in_quad, rays, ends), by_double = worst(in_double, rays, ends);
+        std::size_t boundaries = 0;
+        const double by_quad = worst(in_quad, rays, boundaries), by_double = worst(in_double, rays, boundaries);
         INFO(name << ": worst error in ulps, 113 bits " << by_quad << ", double " << by_double);
-        CHECK(ends > 300);
+        CHECK(boundaries > 300);
         CHECK(by_quad == 0);
         CHECK(by_double >= 1);
     }

@@ -13,7 +13,7 @@
 #define GATE_INTERSECTION 2u
 
 typedef struct {
-    __global const End* ends;
+    __global const Boundary* boundaries;
     __global const u32* bits;  // of segments
     u32 segments;
     u32 missed;  // MISSED_...: segments whose ends have any of these do not cover it
@@ -36,7 +36,7 @@ static u32 next_segment(const coverage* c, u32* at) {
         }
         segment = *at + lowest(word);
         *at = segment + 1;
-        if (segment < c->segments && !(c->ends[2 * segment].surface & c->missed)) return segment;
+        if (segment < c->segments && !(c->boundaries[2 * segment].surface & c->missed)) return segment;
     }
     return NONE;
 }
@@ -47,7 +47,7 @@ static void list_coverage(coverage* c, u32 missed) {
     c->missed = missed;
     c->count = c->marked = c->filter = 0;
     while ((segment = next_segment(c, &at)) != NONE) {
-        const End end = c->ends[2 * segment];
+        const Boundary end = c->boundaries[2 * segment];
         c->marked |= end.surface & MISSED;
         c->filter |= FILTER_BIT(end.solid);
         if (c->count < LISTED_SOLIDS) c->solids[c->count] = end.solid;
@@ -60,7 +60,7 @@ static u32 next_solid(const coverage* c, u32* at) {
     u32 segment;
     if (c->count <= LISTED_SOLIDS) return *at < c->count ? c->solids[(*at)++] : NONE;
     segment = next_segment(c, at);
-    return segment == NONE ? NONE : c->ends[2 * segment].solid;
+    return segment == NONE ? NONE : c->boundaries[2 * segment].solid;
 }
 
 static u32 is_alone(const coverage* c) {
@@ -79,7 +79,7 @@ static u32 solid_covers(const coverage* c, u32 solid) {
     }
     while (low < high) {  // a ray's ends stand by ascending solid
         const u32 middle = (low + high) >> 1;
-        if (c->ends[2 * middle].solid < solid) {
+        if (c->boundaries[2 * middle].solid < solid) {
             low = middle + 1;
         } else {
             high = middle;
@@ -87,7 +87,7 @@ static u32 solid_covers(const coverage* c, u32 solid) {
     }
     at = low;
     low = next_segment(c, &at);
-    return low != NONE && c->ends[2 * low].solid == solid;
+    return low != NONE && c->boundaries[2 * low].solid == solid;
 }
 
 // The first place from `low` on, before `high`, whose value is not less.

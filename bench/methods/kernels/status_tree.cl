@@ -66,26 +66,26 @@ static u32 least_status(status* s, const coverage* c) {
 }
 
 // Do the segments of `bits` from `first` to before `end`, which are one solid's, cover? `missed` as in coverage.
-static u32 any_covers(__global const End* ends, __global const u32* bits, u32 first, u32 end, u32 missed) {
+static u32 any_covers(__global const Boundary* boundaries, __global const u32* bits, u32 first, u32 end, u32 missed) {
     u32 i;
     for (i = first; i < end; ++i)
-        if ((bits[i >> 5] >> (i & 31u) & 1u) && !(ends[2 * i].surface & missed)) return 1;
+        if ((bits[i >> 5] >> (i & 31u) & 1u) && !(boundaries[2 * i].surface & missed)) return 1;
     return 0;
 }
 
 // Flips the solids that cover `before` (0: nothing does) and not `after`, or the other way round.
-static void change(status* s, __global const End* ends, u32 segments, __global const u32* before, u32 missed_before,
-                   __global const u32* after, u32 missed_after) {
+static void change(status* s, __global const Boundary* boundaries, u32 segments, __global const u32* before,
+                   u32 missed_before, __global const u32* after, u32 missed_after) {
     u32 word, words = words_of(segments);
     for (word = 0; word < words; ++word) {
         u32 bits = (before ? before[word] : 0u) | (after ? after[word] : 0u);
         if (missed_before == missed_after) bits = (before ? before[word] : 0u) ^ (after ? after[word] : 0u);
         while (bits) {
-            const u32 segment = 32 * word + lowest(bits), solid = ends[2 * segment].solid;
+            const u32 segment = 32 * word + lowest(bits), solid = boundaries[2 * segment].solid;
             u32 first = segment, end = segment + 1, is_first;
             bits &= bits - 1;
-            while (first > 0 && ends[2 * first - 2].solid == solid) --first;
-            while (end < segments && ends[2 * end].solid == solid) ++end;
+            while (first > 0 && boundaries[2 * first - 2].solid == solid) --first;
+            while (end < segments && boundaries[2 * end].solid == solid) ++end;
             // A solid of several segments is looked at once: by the first of them that is looked at.
             is_first = 1;
             if (end - first > 1) {
@@ -96,15 +96,15 @@ static void change(status* s, __global const End* ends, u32 segments, __global c
                     if (missed_before == missed_after ? a != b : a | b) is_first = 0;
                 }
             }
-            if (is_first && (before ? any_covers(ends, before, first, end, missed_before) : 0u) !=
-                                (after ? any_covers(ends, after, first, end, missed_after) : 0u))
+            if (is_first && (before ? any_covers(boundaries, before, first, end, missed_before) : 0u) !=
+                                (after ? any_covers(boundaries, after, first, end, missed_after) : 0u))
                 flip_solid(s, solid);
         }
     }
 }
 
 __kernel void evaluate_status_tree(__global const Frame* frame, __global const RayCount* offsets,
-                                   __global const End* all_ends, __global const u32* all_bits,
+                                   __global const Boundary* all_boundaries, __global const u32* all_bits,
                                    __global PartitionNode* all_nodes, __global const u32* tables,
                                    __global u32* memory) {
     const u32 ray = (u32)get_global_id(0);
@@ -118,7 +118,7 @@ __kernel void evaluate_status_tree(__global const Frame* frame, __global const R
     offset = offsets[ray];
     c.segments = offsets[ray + 1].segments - offset.segments;
     if (c.segments == 0) return;
-    c.ends = all_ends + 2 * (size_t)offset.segments;
+    c.boundaries = all_boundaries + 2 * (size_t)offset.segments;
     nodes = all_nodes + 2 * (size_t)offset.segments;
     s.tables = tables;
     s.state = memory + (size_t)ray * tables[tables[6]];
@@ -127,20 +127,20 @@ __kernel void evaluate_status_tree(__global const Frame* frame, __global const R
     for (k = first_partition(nodes, c.segments); k != NONE; k = nodes[k].next) {
         u32 owner = NONE;
         c.bits = all_bits + offset.words + k * words_of(c.segments);
-        change(&s, c.ends, c.segments, before, 0, c.bits, 0);
+        change(&s, c.boundaries, c.segments, before, 0, c.bits, 0);
         before = c.bits;
         list_coverage(&c, 0);
         if (c.marked && !is_alone(&c)) {  // to each side of the face that the ray runs in, and back
             u32 side, missed = 0;
             for (side = 1; side < SIDES; ++side) {
                 u32 here;
-                change(&s, c.ends, c.segments, c.bits, missed, c.bits, missed_on(side));
+                change(&s, c.boundaries, c.segments, c.bits, missed, c.bits, missed_on(side));
                 missed = missed_on(side);
                 list_coverage(&c, missed);
                 here = least_status(&s, &c);
                 if (here < owner) owner = here;
             }
-            change(&s, c.ends, c.segments, c.bits, missed, c.bits, 0);
+            change(&s, c.boundaries, c.segments, c.bits, missed, c.bits, 0);
         } else {
             owner = least_status(&s, &c);
         }

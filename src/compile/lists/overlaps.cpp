@@ -14,13 +14,14 @@ namespace kernel {
 namespace {
 
 /// The claimants of the partition that begins at `in`. Weaving has given all boundaries of an event the same distance.
-std::span<const std::uint32_t> claimants_of(const CompiledScene& scene, const kernel::End* ends, std::uint32_t segments,
-                                            double in, std::vector<std::uint32_t>& found) {
+std::span<const std::uint32_t> claimants_of(const CompiledScene& scene, const kernel::Boundary* boundaries,
+                                            std::uint32_t segments, double in, std::vector<std::uint32_t>& found) {
     std::vector<std::uint32_t> bits(kernel::words_of(segments));
     for (std::uint32_t segment = 0; segment < segments; ++segment)
-        if (ends[2 * segment].t <= in && in < ends[2 * segment + 1].t) bits[segment / 32] |= 1u << segment % 32;
-    const kernel::cover cover{
-        ends, bits.data(), segments, 0, 1, 0, scene.solids.data(), scene.starts.data(), scene.trees.data()};
+        if (boundaries[2 * segment].t <= in && in < boundaries[2 * segment + 1].t)
+            bits[segment / 32] |= 1u << segment % 32;
+    const kernel::cover cover{boundaries,          bits.data(),         segments,          0, 1, 0,
+                              scene.solids.data(), scene.starts.data(), scene.trees.data()};
     found.resize(kernel::claims_at_most(cover));
     return {found.data(), kernel::all_claimants(cover, scene.rank_ends, found.data())};
 }
@@ -33,10 +34,10 @@ void append_overlaps(const CompiledScene& scene, std::span<const kernel::Overlap
     for (const kernel::OverlapRecord& overlap_record : overlap_records) {
         const std::uint32_t first = traced.offsets[overlap_record.ray].segments,
                             segments = traced.offsets[overlap_record.ray + 1].segments - first;
-        const kernel::End* const ends = traced.ends + 2 * std::size_t{first};
+        const kernel::Boundary* const boundaries = traced.boundaries + 2 * std::size_t{first};
         const kernel::PartitionNode& node = traced.nodes[2 * std::size_t{first} + overlap_record.node];
         append_overlap(overlap_record.ray, overlap_record.in, overlap_record.out,
-                       claimants_of(scene, ends, segments, ends[node.in_end].t, found), rows);
+                       claimants_of(scene, boundaries, segments, boundaries[node.in_boundary].t, found), rows);
     }
 }
 

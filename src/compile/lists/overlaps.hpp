@@ -13,14 +13,14 @@ namespace csgrt {
 /// The results of kernels 1 to 4 for a batch's rays, in double (kernels/shared/layout.h).
 struct TracedBatch {
     std::vector<kernel::RayCount> offsets;  ///< one a ray, and one more
-    std::vector<kernel::End> ends;
+    std::vector<kernel::Boundary> boundaries;
     std::vector<kernel::PartitionNode> nodes;
 };
 
 /// Pointers to such results.
 struct TracedRays {
     const kernel::RayCount* offsets;  ///< one a ray, and one more
-    const kernel::End* ends;
+    const kernel::Boundary* boundaries;
     const kernel::PartitionNode* nodes;
 };
 

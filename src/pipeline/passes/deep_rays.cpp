@@ -11,7 +11,7 @@ namespace kernel {
 }  // namespace kernel
 
 namespace {
-constexpr cl_uint field_in_end = 0, field_next = 2;  // of kernel::PartitionNode
+constexpr cl_uint field_in_boundary = 0, field_next = 2;  // of kernel::PartitionNode
 }  // namespace
 
 DeepRayPass::Tree::Tree(Device& device, const StatusTree& tree, std::uint32_t regions)
@@ -103,13 +103,13 @@ void DeepRayPass::sort(PartitionMemory& memory, TimedKernels& timed) {
     const cl_uint count = static_cast<cl_uint>(listed_.size() - 1), blocks = listed_.back().block;
     const auto add = [&](Event event) { timed.emplace_back(&PipelineCounts::weave, std::move(event)); };
     cl_uint field = field_next;
-    for (std::uint64_t run = DEEP_BLOCK; run < most_ends_; run *= 2) field ^= field_next ^ field_in_end;
-    add(sort_blocks_.launch(blocks, work_group, rays_, count, blocks, memory.offsets(), memory.ends(),
+    for (std::uint64_t run = DEEP_BLOCK; run < most_ends_; run *= 2) field ^= field_next ^ field_in_boundary;
+    add(sort_blocks_.launch(blocks, work_group, rays_, count, blocks, memory.offsets(), memory.boundaries(),
                             memory.partitions(), field));
     for (cl_uint run = DEEP_BLOCK; run < most_ends_; run *= 2) {
-        add(merge_runs_.launch(blocks, work_group, rays_, count, blocks, memory.offsets(), memory.ends(),
+        add(merge_runs_.launch(blocks, work_group, rays_, count, blocks, memory.offsets(), memory.boundaries(),
                                memory.partitions(), field, run));
-        field ^= field_next ^ field_in_end;
+        field ^= field_next ^ field_in_boundary;
     }
 }
 
@@ -120,10 +120,10 @@ void DeepRayPass::launch(const BatchBuffers& batch, Work work, PartitionMemory& 
     const auto add = [&](Event event) { timed.emplace_back(&PipelineCounts::evaluate, std::move(event)); };
     add(clear_status_.launch(words, work_group, tree_->outside, tree_->cluster_words, tree_->words, words, status_));
     for (const Group& group : groups_) {
-        for (std::uint32_t ends = 0; ends < group.most_ends; ends += ends_a_launch)
+        for (std::uint32_t boundaries = 0; boundaries < group.most_ends; boundaries += ends_a_launch)
             add(sweep_.launch(group.count, divergent_group(device_), batch.frame, batch.rays, batch.numbers(work),
                               rays_, group.first, cl_uint{listed_[group.first].segment}, group.count, memory.offsets(),
-                              memory.ends(), memory.partitions(), segments_, status_, tree_->cluster_words,
+                              memory.boundaries(), memory.partitions(), segments_, status_, tree_->cluster_words,
                               static_cast<cl_uint>(scene_->regions.size()), tree_->links, tree_->first_leaves,
                               tree_->leaves, cl_uint{ends_a_launch}, memory.ray_tallies()));
         device_.flush();

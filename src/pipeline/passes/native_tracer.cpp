@@ -47,11 +47,11 @@ kernel::RayCount scan(std::span<kernel::RayCount> counts) {
 struct NativeTracer::Scratch {
     std::vector<kernel::RayCount> places, offsets;
     std::vector<kernel::Candidate> candidates;
-    std::vector<kernel::End> found, ends;
+    std::vector<kernel::Boundary> found, boundaries;
     std::vector<kernel::PartitionNode> nodes;
     std::vector<std::uint32_t> bits;
     std::vector<kernel::RayTally> tallies;
-    std::vector<kernel::RowEnds> bounds;
+    std::vector<kernel::RowBoundaries> bounds;
     std::vector<kernel::OverlapRecord> overlap_records;
     std::vector<kernel::DeepSegment> deep_segments;
     std::vector<std::uint32_t> status;
@@ -64,7 +64,7 @@ struct NativeTracer::Scratch {
     /// Frees memory that only one batch of many needed.
     void trim() {
         constexpr std::size_t most = std::size_t{1} << 16;
-        if (ends.size() > 8 * most || candidates.size() > 8 * most) *this = {};
+        if (boundaries.size() > 8 * most || candidates.size() > 8 * most) *this = {};
     }
 };
 
@@ -107,7 +107,7 @@ NativeTracer::NativeTracer(const native::Level& level, const CompiledScene& scen
     sum_segments_ = kernel("sum_segments");
     store_segments_ = kernel("store_segments");
     store_in_faces_ = kernel("store_in_faces");
-    order_ends_ = kernel("order_ends");
+    order_boundaries_ = kernel("order_boundaries");
     weave_ = kernel("weave");
     evaluate_ = kernel("evaluate");
     sort_deep_blocks_ = kernel("sort_deep_blocks");
@@ -138,9 +138,10 @@ bool NativeTracer::trace(const kernel::Frame& list, std::span<const kernel::RayR
     packets ? run(count_packet_candidates_, items, &frame, nodes, none, rays.data(), none, places)
             : run(find_candidates_, items, &frame, nodes, none, rays.data(), none, places, none);
     const std::uint32_t candidate_count = scan({places, n + 1}).segments;
-    if (candidate_count * std::uint64_t{sizeof(kernel::Candidate) + 2 * sizeof(kernel::End)} > budget_) return false;
+    if (candidate_count * std::uint64_t{sizeof(kernel::Candidate) + 2 * sizeof(kernel::Boundary)} > budget_)
+        return false;
     kernel::Candidate* const candidates = room_for(s.candidates, candidate_count);
-    kernel::End* const found = room_for(s.found, 2 * std::size_t{candidate_count});
+    kernel::Boundary* const found = room_for(s.found, 2 * std::size_t{candidate_count});
     packets ? geometry(list_packet_candidates_, items, nodes, none, rays.data(), none, places, candidates, found)
             : run(find_candidates_, items, &frame, nodes, none, rays.data(), none, places, candidates);
     geometry(count_segments_, candidate_count, rays.data(), none, places, candidates, found);
@@ -150,25 +151,25 @@ bool NativeTracer::trace(const kernel::Frame& list, std::span<const kernel::RayR
     run.total = scan({offsets, n + 1});
     run.lap(&PipelineCounts::count_segments);
 
-    const std::size_t end_count = 2 * std::size_t{run.total.segments};
-    if (end_count * (sizeof(kernel::End) + sizeof(kernel::PartitionNode)) +
+    const std::size_t boundary_count = 2 * std::size_t{run.total.segments};
+    if (boundary_count * (sizeof(kernel::Boundary) + sizeof(kernel::PartitionNode)) +
                 run.total.words * std::uint64_t{sizeof(std::uint32_t)} >
             budget_ ||
         run.total.segments >= NONE / 2 || run.total.words == COUNT_MAX)
         return false;
-    kernel::End* const ends = room_for(s.ends, end_count);
-    std::uint32_t* const bits = room_for(s.bits, std::max<std::size_t>(run.total.words, end_count));
-    geometry(store_segments_, candidate_count, rays.data(), none, places, candidates, found, offsets, ends, bits);
+    kernel::Boundary* const boundaries = room_for(s.boundaries, boundary_count);
+    std::uint32_t* const bits = room_for(s.bits, std::max<std::size_t>(run.total.words, boundary_count));
+    geometry(store_segments_, candidate_count, rays.data(), none, places, candidates, found, offsets, boundaries, bits);
     if (flat_faced)
-        geometry(store_in_faces_, candidate_count, rays.data(), none, places, candidates, offsets, ends, bits);
+        geometry(store_in_faces_, candidate_count, rays.data(), none, places, candidates, offsets, boundaries, bits);
     run.lap(&PipelineCounts::store_segments);
-    kernel::PartitionNode* const partitions = room_for(s.nodes, end_count);
+    kernel::PartitionNode* const partitions = room_for(s.nodes, boundary_count);
     kernel::RayTally* const tallies = room_for(s.tallies, n);
-    run(order_ends_, end_count, &frame, offsets, ends, bits, partitions);
-    run(weave_, n, &frame, rays.data(), none, offsets, ends, partitions, bits, tallies);
+    run(order_boundaries_, boundary_count, &frame, offsets, boundaries, bits, partitions);
+    run(weave_, n, &frame, rays.data(), none, offsets, boundaries, partitions, bits, tallies);
     run.lap(&PipelineCounts::weave);
-    run(evaluate_, end_count, &frame, scene_.solids.data(), scene_.starts.data(), scene_.trees.data(), rays.data(),
-        none, offsets, ends, bits, partitions);
+    run(evaluate_, boundary_count, &frame, scene_.solids.data(), scene_.starts.data(), scene_.trees.data(), rays.data(),
+        none, offsets, boundaries, bits, partitions);
     trace_deep_rays(run);
     run.lap(&PipelineCounts::evaluate);
     write_rows(run, fields, rows);
@@ -176,11 +177,11 @@ bool NativeTracer::trace(const kernel::Frame& list, std::span<const kernel::RayR
 
     for (std::size_t i = 0; i < n; ++i) counts.partitions_used += tallies[i].partitions;
     counts.segments += run.total.segments;
-    counts.ends += end_count;
-    counts.partitions_allocated += end_count;
-    counts.segment_bytes += end_count * sizeof(kernel::End) +
-                            candidate_count * std::uint64_t{sizeof(kernel::Candidate) + 2 * sizeof(kernel::End)};
-    counts.partition_bytes += end_count * sizeof(kernel::PartitionNode) + run.total.words * sizeof(std::uint32_t);
+    counts.ends += boundary_count;
+    counts.partitions_allocated += boundary_count;
+    counts.segment_bytes += boundary_count * sizeof(kernel::Boundary) +
+                            candidate_count * std::uint64_t{sizeof(kernel::Candidate) + 2 * sizeof(kernel::Boundary)};
+    counts.partition_bytes += boundary_count * sizeof(kernel::PartitionNode) + run.total.words * sizeof(std::uint32_t);
     ++counts.batches;
     s.trim();
     return true;
@@ -247,10 +248,10 @@ bool NativeTracer::hit(const kernel::Frame& list, std::span<const kernel::RayRec
 // The steps run one after the other, as in DeepRayPass (src/pipeline/passes/deep_rays.hpp).
 void NativeTracer::trace_deep_rays(Run& run) const {
     Scratch& s = run.scratch;
-    constexpr std::uint32_t field_in_end = 0, field_next = 2;  // of kernel::PartitionNode
+    constexpr std::uint32_t field_in_boundary = 0, field_next = 2;  // of kernel::PartitionNode
     const auto regions = static_cast<std::uint32_t>(scene_.regions.size());
     for (std::uint32_t ray = 0; ray < run.rays.size(); ++ray) {
-        const std::uint32_t segments = s.offsets[ray + 1].segments - s.offsets[ray].segments, ends = 2 * segments;
+        const std::uint32_t segments = s.offsets[ray + 1].segments - s.offsets[ray].segments, boundaries = 2 * segments;
         if (segments <= DEEP_SEGMENTS) continue;
         const StatusTree& tree = LateStatusTree::of(scene_);
         const auto cluster_words = static_cast<std::uint32_t>(tree.outside.size()),
@@ -260,19 +261,20 @@ void NativeTracer::trace_deep_rays(Run& run) const {
         kernel::DeepRay deep{};
         deep.ray = ray;
         deep.open = deep.last = NONE;
-        const std::uint32_t blocks = (ends + DEEP_BLOCK - 1) / DEEP_BLOCK;
+        const std::uint32_t blocks = (boundaries + DEEP_BLOCK - 1) / DEEP_BLOCK;
         std::uint32_t field = field_next;
-        for (std::uint64_t length = DEEP_BLOCK; length < ends; length *= 2) field ^= field_next ^ field_in_end;
-        run(sort_deep_blocks_, blocks, &deep, 1u, blocks, s.offsets.data(), s.ends.data(), s.nodes.data(), field);
-        for (std::uint32_t length = DEEP_BLOCK; length < ends; length *= 2) {
-            run(merge_deep_runs_, blocks, &deep, 1u, blocks, s.offsets.data(), s.ends.data(), s.nodes.data(), field,
-                length);
-            field ^= field_next ^ field_in_end;
+        for (std::uint64_t length = DEEP_BLOCK; length < boundaries; length *= 2)
+            field ^= field_next ^ field_in_boundary;
+        run(sort_deep_blocks_, blocks, &deep, 1u, blocks, s.offsets.data(), s.boundaries.data(), s.nodes.data(), field);
+        for (std::uint32_t length = DEEP_BLOCK; length < boundaries; length *= 2) {
+            run(merge_deep_runs_, blocks, &deep, 1u, blocks, s.offsets.data(), s.boundaries.data(), s.nodes.data(),
+                field, length);
+            field ^= field_next ^ field_in_boundary;
         }
         run(clear_status_, all, tree.outside.data(), cluster_words, words, all, status);
-        while (deep.changed < ends)
+        while (deep.changed < boundaries)
             run(sweep_deep_rays_, 1, &run.frame, run.rays.data(), none, &deep, 0u, 0u, 1u, s.offsets.data(),
-                s.ends.data(), s.nodes.data(), of_segments, status, cluster_words, regions, tree.links.data(),
+                s.boundaries.data(), s.nodes.data(), of_segments, status, cluster_words, regions, tree.links.data(),
                 tree.first_leaves.data(), tree.leaves.data(), 16'384u, s.tallies.data());
     }
 }
@@ -282,21 +284,23 @@ void NativeTracer::write_rows(Run& run, Fields fields, RowMemory& rows) const {
     const std::size_t n = run.rays.size();
     const void* const offsets = s.offsets.data();
     kernel::RayCount* const places = room_for(rows.places, n + 1);
-    run(count_rows_, n, &run.frame, run.rays.data(), offsets, s.ends.data(), s.nodes.data(), places);
+    run(count_rows_, n, &run.frame, run.rays.data(), offsets, s.boundaries.data(), s.nodes.data(), places);
     const kernel::RayCount total = scan({places, n + 1});
     rows.reserve(total.segments, fields);
     run.counts.overlaps += total.words;
-    kernel::RowEnds* const bounds = fields.solids || fields.normals ? room_for(s.bounds, total.segments) : nullptr;
+    kernel::RowBoundaries* const bounds =
+        fields.solids || fields.normals ? room_for(s.bounds, total.segments) : nullptr;
     kernel::OverlapRecord* const overlap_records = fields.overlaps ? room_for(s.overlap_records, total.words) : nullptr;
-    run(write_rows_, n, &run.frame, run.rays.data(), offsets, s.ends.data(), s.nodes.data(), places,
+    run(write_rows_, n, &run.frame, run.rays.data(), offsets, s.boundaries.data(), s.nodes.data(), places,
         rows.regions.data(), rows.in.data(), rows.out.data(), bounds, overlap_records);
     if (bounds)
         run(describe_rows_, total.segments, &run.frame, scene_.solids.data(), scene_.reals.data(), scene_.planes.data(),
-            scene_.words.data(), scene_.inner_nodes.data(), run.rays.data(), s.ends.data(), bounds, total.segments,
-            fields.solids ? rows.in_solids.data() : nullptr, fields.solids ? rows.out_solids.data() : nullptr,
-            fields.normals ? rows.in_normals.data() : nullptr, fields.normals ? rows.out_normals.data() : nullptr);
+            scene_.words.data(), scene_.inner_nodes.data(), run.rays.data(), s.boundaries.data(), bounds,
+            total.segments, fields.solids ? rows.in_solids.data() : nullptr,
+            fields.solids ? rows.out_solids.data() : nullptr, fields.normals ? rows.in_normals.data() : nullptr,
+            fields.normals ? rows.out_normals.data() : nullptr);
     if (fields.overlaps)
-        append_overlaps(scene_, {overlap_records, total.words}, {s.offsets.data(), s.ends.data(), s.nodes.data()},
+        append_overlaps(scene_, {overlap_records, total.words}, {s.offsets.data(), s.boundaries.data(), s.nodes.data()},
                         rows);
 }
 

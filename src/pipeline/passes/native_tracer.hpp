@@ -46,8 +46,8 @@ private:
     const CompiledScene& scene_;
     const std::uint64_t budget_;
     const native::CompiledKernel *find_candidates_, *count_packet_candidates_, *list_packet_candidates_,
-        *count_segments_, *count_in_faces_, *sum_segments_, *store_segments_, *store_in_faces_, *order_ends_, *weave_,
-        *evaluate_, *sort_deep_blocks_, *merge_deep_runs_, *clear_status_, *sweep_deep_rays_, *count_rows_,
+        *count_segments_, *count_in_faces_, *sum_segments_, *store_segments_, *store_in_faces_, *order_boundaries_,
+        *weave_, *evaluate_, *sort_deep_blocks_, *merge_deep_runs_, *clear_status_, *sweep_deep_rays_, *count_rows_,
         *write_rows_, *describe_rows_, *hit_listed_rays_;
 };
 

@@ -6,12 +6,12 @@ namespace csgrt {
 
 PartitionMemory::PartitionMemory(Device& device, const HostKernels& kernels)
     : device_(device),
-      end_bytes_(kernels.end_bytes()),
+      boundary_bytes_(kernels.boundary_bytes()),
       ray_counts_(device, "candidates' places, then rays' tallies"),
       offsets_(device, "rays' offsets"),
       candidates_(device, "candidates"),
       found_(device, "candidates' segments, then partitions"),
-      ends_(device, "segments"),
+      boundaries_(device, "segments"),
       bits_(device, "partitions' bits"),
       tally_sums_(device, "sums of tallies") {}
 
@@ -57,7 +57,7 @@ bool PartitionMemory::reserve_segments(const kernel::RayCount& total) {
     if (total.segments >= NONE / 2 || total.words == COUNT_MAX) return false;
     const std::uint64_t words =
         std::max<std::uint64_t>(total.words, 2 * std::uint64_t{total.segments});  // the number of each boundary's ray
-    const Wanted wanted[] = {{&ends_, total.segments * segment_bytes()}, {&bits_, words * sizeof(std::uint32_t)}};
+    const Wanted wanted[] = {{&boundaries_, total.segments * segment_bytes()}, {&bits_, words * sizeof(std::uint32_t)}};
     const std::uint64_t partitions = partition_bytes(total.segments),
                         more = partitions > found_.size() ? partitions : 0;
     std::uint64_t needed = more, grown = more, held = 0;
@@ -79,15 +79,15 @@ PartitionSizes PartitionMemory::capacity() const {
     const auto holds = [](const Buffer& buffer, std::size_t bytes) {
         return static_cast<std::uint32_t>(std::min<std::size_t>(buffer.size() / bytes, NONE / 2));
     };
-    return {
-        .candidates = std::min(holds(candidates_, sizeof(kernel::Candidate)), holds(found_, segment_bytes())),
-        .total = {.segments = std::min(holds(ends_, segment_bytes()), holds(found_, 2 * sizeof(kernel::PartitionNode))),
-                  .words = holds(bits_, sizeof(std::uint32_t))}};
+    return {.candidates = std::min(holds(candidates_, sizeof(kernel::Candidate)), holds(found_, segment_bytes())),
+            .total = {.segments = std::min(holds(boundaries_, segment_bytes()),
+                                           holds(found_, 2 * sizeof(kernel::PartitionNode))),
+                      .words = holds(bits_, sizeof(std::uint32_t))}};
 }
 
 std::uint64_t PartitionMemory::held() const {
     std::uint64_t sum = 0;
-    for (const Buffer* buffer : {&ray_counts_, &offsets_, &candidates_, &found_, &ends_, &bits_, &tally_sums_})
+    for (const Buffer* buffer : {&ray_counts_, &offsets_, &candidates_, &found_, &boundaries_, &bits_, &tally_sums_})
         sum += buffer->size();
     return sum;
 }
@@ -98,7 +98,7 @@ void PartitionMemory::release() {
 }
 
 void PartitionMemory::release_counted() {
-    for (Buffer* buffer : {&candidates_, &found_, &ends_, &bits_}) buffer->release();
+    for (Buffer* buffer : {&candidates_, &found_, &boundaries_, &bits_}) buffer->release();
 }
 
 }  // namespace csgrt

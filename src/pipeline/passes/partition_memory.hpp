@@ -7,7 +7,7 @@
 //   found segments     w              r
 //   ... partitions                                       w         w           r
 //   offsets            w              r                  r         r           r
-//   ends, bits                        w                  r w       r           r
+//   boundaries, bits                  w                  r w       r           r
 //
 // Two pairs share memory on purpose: the lines that begin with dots take the place of the line above once it was read.
 #pragma once
@@ -38,9 +38,9 @@ public:
     Buffer& ray_tallies() { return ray_counts_; }       ///< kernel::RayTally, one a ray
     Buffer& offsets() { return offsets_; }              ///< kernel::RayCount, one a ray and one more
     Buffer& candidates() { return candidates_; }        ///< kernel::Candidate
-    Buffer& found() { return found_; }                  ///< two kernel::End a candidate
+    Buffer& found() { return found_; }                  ///< two kernel::Boundary a candidate
     Buffer& partitions() { return found_; }             ///< two kernel::PartitionNode a segment
-    Buffer& ends() { return ends_; }                    ///< two kernel::End a segment
+    Buffer& boundaries() { return boundaries_; }        ///< two kernel::Boundary a segment
     Buffer& bits() { return bits_; }                    ///< words; at least 2 a segment
     Buffer& tally_sums() { return tally_sums_; }        ///< kernel::RayTally, one a scan block
 
@@ -70,11 +70,11 @@ private:
     static std::uint64_t partition_bytes(std::uint32_t segments) {
         return 2 * std::uint64_t{segments} * sizeof(kernel::PartitionNode);
     }
-    std::uint64_t segment_bytes() const { return 2 * std::uint64_t{end_bytes_}; }
+    std::uint64_t segment_bytes() const { return 2 * std::uint64_t{boundary_bytes_}; }
 
     Device& device_;
-    std::size_t end_bytes_;  ///< of kernel::End in the program's precision
-    Buffer ray_counts_, offsets_, candidates_, found_, ends_, bits_, tally_sums_;
+    std::size_t boundary_bytes_;  ///< of kernel::Boundary in the program's precision
+    Buffer ray_counts_, offsets_, candidates_, found_, boundaries_, bits_, tally_sums_;
 };
 
 /// The entries that one group of kernels/scan.cl sums.

@@ -50,7 +50,7 @@ PartitionPass::PartitionPass(Device& device, const CompiledScene& scene, const H
       scan_sums_(program_.kernel("scan_sums")),
       scan_add_(program_.kernel("scan_add")),
       store_segments_(program_.kernel("store_segments")),
-      order_ends_(program_.kernel("order_ends")),
+      order_boundaries_(program_.kernel("order_boundaries")),
       weave_(program_.kernel("weave")),
       evaluate_(program_.kernel(other_evaluation_ ? other_evaluation_->name : "evaluate")),
       shade_(program_.kernel("shade")),
@@ -209,29 +209,29 @@ void PartitionPass::make_partitions(const Input& input, std::uint32_t candidates
                                     TimedKernels& timed) {
     const BatchBuffers& batch = input.batch;
     const Buffer& numbers = batch.numbers(input.work);
-    const std::size_t ends = 2 * std::size_t{segments};
+    const std::size_t boundaries = 2 * std::size_t{segments};
     const auto add = [&](double PipelineCounts::*time, Event event) { timed.emplace_back(time, std::move(event)); };
     add(&PipelineCounts::store_segments,
         store_segments_.launch(segments ? candidates : 0, work_group, batch.frame, input.scene.geometry(), batch.rays,
                                numbers, memory_.candidate_places(), memory_.candidates(), memory_.found(),
-                               memory_.offsets(), memory_.ends(), memory_.bits()));
+                               memory_.offsets(), memory_.boundaries(), memory_.bits()));
     if (rays_in_faces_ && has_flat_faced(*scene_))
         add(&PipelineCounts::store_segments,
             rays_in_faces_->store.launch(segments ? candidates : 0, work_group, batch.frame, input.scene.geometry(),
                                          batch.rays, numbers, memory_.candidate_places(), memory_.candidates(),
-                                         memory_.offsets(), memory_.ends(), memory_.bits()));
+                                         memory_.offsets(), memory_.boundaries(), memory_.bits()));
     device_.flush();
     memory_.reserve_partitions(segments);  // the driver keeps the memory that it replaces until kernel 2 has ended
-    add(&PipelineCounts::weave, order_ends_.launch(ends, work_group, batch.frame, memory_.offsets(), memory_.ends(),
-                                                   memory_.bits(), memory_.partitions()));
+    add(&PipelineCounts::weave, order_boundaries_.launch(boundaries, work_group, batch.frame, memory_.offsets(),
+                                                         memory_.boundaries(), memory_.bits(), memory_.partitions()));
     add(&PipelineCounts::weave,
-        weave_.launch(input.rays, work_group, batch.frame, batch.rays, numbers, memory_.offsets(), memory_.ends(),
+        weave_.launch(input.rays, work_group, batch.frame, batch.rays, numbers, memory_.offsets(), memory_.boundaries(),
                       memory_.partitions(), memory_.bits(), memory_.ray_tallies()));
     add(&PipelineCounts::evaluate,
         other_evaluation_
             ? other_evaluation_->launch(evaluate_, input, memory_, segments)
-            : evaluate_.launch(ends, work_group, batch.frame, input.scene.evaluation(), batch.rays, numbers,
-                               memory_.offsets(), memory_.ends(), memory_.bits(), memory_.partitions()));
+            : evaluate_.launch(boundaries, work_group, batch.frame, input.scene.evaluation(), batch.rays, numbers,
+                               memory_.offsets(), memory_.boundaries(), memory_.bits(), memory_.partitions()));
 }
 
 bool PartitionPass::write_rows(const Input& input, std::uint64_t first, Fields fields, TimedKernels& timed) {
@@ -255,9 +255,10 @@ Event PartitionPass::make_rays(const BatchBuffers& batch, std::uint32_t rays, Ra
 TracedBatch PartitionPass::read(std::uint32_t rays) {
     TracedBatch traced;
     traced.offsets = memory_.offsets().read<kernel::RayCount>(std::size_t{rays} + 1);
-    const std::size_t ends = 2 * std::size_t{traced.offsets.back().segments};
-    traced.ends = kernels_->ends(memory_.ends().read<std::byte>(ends * kernels_->end_bytes()));
-    traced.nodes = memory_.partitions().read<kernel::PartitionNode>(ends);
+    const std::size_t boundaries = 2 * std::size_t{traced.offsets.back().segments};
+    traced.boundaries =
+        kernels_->boundaries(memory_.boundaries().read<std::byte>(boundaries * kernels_->boundary_bytes()));
+    traced.nodes = memory_.partitions().read<kernel::PartitionNode>(boundaries);
     return traced;
 }
 
@@ -265,7 +266,7 @@ void PartitionPass::shade(const Input& input, const Buffer& picture, TimedKernel
     timed.emplace_back(
         &PipelineCounts::shade,
         shade_.launch(input.rays, work_group, input.batch.frame, input.scene.geometry(), input.scene.appearance(),
-                      input.batch.numbers(input.work), memory_.offsets(), memory_.ends(), memory_.partitions(),
+                      input.batch.numbers(input.work), memory_.offsets(), memory_.boundaries(), memory_.partitions(),
                       memory_.ray_tallies(), input.batch.report, picture));
 }
 
@@ -288,8 +289,9 @@ void PartitionPass::add_sizes(const PartitionSizes& needed, std::uint32_t rays, 
     counts.segments += needed.total.segments;
     counts.ends += nodes;
     counts.partitions_allocated += nodes;
-    counts.segment_bytes += nodes * kernels_->end_bytes() +
-                            needed.candidates * (sizeof(kernel::Candidate) + 2 * std::uint64_t{kernels_->end_bytes()});
+    counts.segment_bytes +=
+        nodes * kernels_->boundary_bytes() +
+        needed.candidates * (sizeof(kernel::Candidate) + 2 * std::uint64_t{kernels_->boundary_bytes()});
     counts.partition_bytes +=
         nodes * sizeof(kernel::PartitionNode) + std::uint64_t{needed.total.words} * sizeof(std::uint32_t);
     average_before_ = std::exchange(average_, {.candidates = double(needed.candidates) / rays,

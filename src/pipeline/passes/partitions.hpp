@@ -107,7 +107,7 @@ private:
         return {input.batch.frame,
                 input.batch.rays,
                 memory_.offsets(),
-                memory_.ends(),
+                memory_.boundaries(),
                 memory_.partitions(),
                 memory_.bits(),
                 first,
@@ -129,7 +129,7 @@ private:
     };
     std::optional<RaysInFaces> rays_in_faces_;  ///< if the scene has solids that need them
     Kernel make_rays_, find_candidates_, count_segments_, sum_segments_, scan_blocks_, scan_sums_, scan_add_,
-        store_segments_, order_ends_, weave_, evaluate_, shade_;
+        store_segments_, order_boundaries_, weave_, evaluate_, shade_;
     PartitionMemory memory_;
     DeepRayPass deep_rays_;
     RowPass rows_;

@@ -52,8 +52,9 @@ bool RowPass::reserve(const std::vector<std::pair<Buffer*, std::uint64_t>>& want
 
 const Buffer* RowPass::count(const Input& input, TimedKernels& timed) {
     if (!reserve({{&places_, (std::uint64_t{input.count} + 1) * sizeof(kernel::RayCount)}})) return nullptr;
-    timed.emplace_back(&PipelineCounts::rows, count_rows_.launch(input.count, work_group, input.frame, input.rays,
-                                                                 input.offsets, input.ends, input.nodes, places_));
+    timed.emplace_back(&PipelineCounts::rows,
+                       count_rows_.launch(input.count, work_group, input.frame, input.rays, input.offsets,
+                                          input.boundaries, input.nodes, places_));
     return &places_;
 }
 
@@ -69,16 +70,16 @@ bool RowPass::write(const Input& input, const kernel::RayCount& total, Fields fi
     }
     bounds_.release();
     overlap_records_.release();
-    if (is_described) wanted.emplace_back(&bounds_, std::uint64_t{total.segments} * sizeof(kernel::RowEnds));
+    if (is_described) wanted.emplace_back(&bounds_, std::uint64_t{total.segments} * sizeof(kernel::RowBoundaries));
     if (fields.overlaps) wanted.emplace_back(&overlap_records_, std::uint64_t{total.words} * kernels_->overlap_bytes());
     if (!reserve(wanted)) return false;
     const auto add = [&](Event event) { timed.emplace_back(&PipelineCounts::rows, std::move(event)); };
     add(write_rows_.launch(total.segments + total.words ? input.count : 0, work_group, input.frame, input.rays,
-                           input.offsets, input.ends, input.nodes, places_, columns_[regions], columns_[in],
+                           input.offsets, input.boundaries, input.nodes, places_, columns_[regions], columns_[in],
                            columns_[out], bounds_, overlap_records_));
     add(describe_rows_.launch(is_described ? total.segments : 0, work_group, input.frame, scene.geometry(), input.rays,
-                              input.ends, bounds_, cl_uint{total.segments}, columns_[in_solids], columns_[out_solids],
-                              columns_[in_normals], columns_[out_normals]));
+                              input.boundaries, bounds_, cl_uint{total.segments}, columns_[in_solids],
+                              columns_[out_solids], columns_[in_normals], columns_[out_normals]));
     total_ = total;
     fields_ = fields;
     first_ = input.first;
@@ -113,8 +114,8 @@ const Buffer* RowPass::count_claimants(const Input& input, const SceneTables& sc
     if (!reserve({{&claim_places_, (std::uint64_t{total_.words} + 1) * sizeof(kernel::RayCount)}})) return nullptr;
     timed.emplace_back(
         &PipelineCounts::rows,
-        count_claimants_.launch(total_.words, divergent_group(device_), scene.evaluation(), input.offsets, input.ends,
-                                input.bits, overlap_records_, cl_uint{total_.words}, claim_places_));
+        count_claimants_.launch(total_.words, divergent_group(device_), scene.evaluation(), input.offsets,
+                                input.boundaries, input.bits, overlap_records_, cl_uint{total_.words}, claim_places_));
     return &claim_places_;
 }
 
@@ -124,7 +125,7 @@ bool RowPass::list_claimants(const Input& input, std::uint32_t claims, const Sce
         return false;
     timed.emplace_back(&PipelineCounts::rows,
                        list_claimants_.launch(total_.words, divergent_group(device_), input.frame, scene.evaluation(),
-                                              input.offsets, input.ends, input.bits, overlap_records_,
+                                              input.offsets, input.boundaries, input.bits, overlap_records_,
                                               cl_uint{total_.words}, claim_places_, claimants_, claimant_counts_));
     claims_ = claims;
     return true;
@@ -144,8 +145,8 @@ void RowPass::read_overlaps() {
 void RowPass::append_overlaps(const TracedBatch& traced) {
     const auto overlap_records =
         kernels_->overlap_records(overlap_records_.read<std::byte>(total_.words * kernels_->overlap_bytes()));
-    csgrt::append_overlaps(*scene_, overlap_records, {traced.offsets.data(), traced.ends.data(), traced.nodes.data()},
-                           memory_);
+    csgrt::append_overlaps(*scene_, overlap_records,
+                           {traced.offsets.data(), traced.boundaries.data(), traced.nodes.data()}, memory_);
 }
 
 /// A column, converted to the host's numbers.

@@ -28,7 +28,7 @@ public:
 
     /// The buffers that the kernels read, of the batch that was traced last.
     struct Input {
-        const Buffer &frame, &rays, &offsets, &ends, &nodes, &bits;
+        const Buffer &frame, &rays, &offsets, &boundaries, &nodes, &bits;
         std::uint64_t first;  ///< number of the batch's first ray in the list
         std::uint32_t count;
     };

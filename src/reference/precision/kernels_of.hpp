@@ -90,12 +90,14 @@ k::RayRecord convert(const kernel::RayRecord& r) {
             static_cast<wide>(r.dy), static_cast<wide>(r.dz), static_cast<wide>(r.t_near), static_cast<wide>(r.t_far)};
 }
 
-[[maybe_unused]] std::vector<kernel::End> ends_of(std::vector<kernel::End>&& ends) { return std::move(ends); }
-template <class End>
-std::vector<kernel::End> ends_of(std::vector<End>&& ends) {
-    std::vector<kernel::End> result;
-    result.reserve(ends.size());
-    for (const End& e : ends) result.push_back({static_cast<double>(e.t), e.solid, e.surface});
+[[maybe_unused]] std::vector<kernel::Boundary> ends_of(std::vector<kernel::Boundary>&& boundaries) {
+    return std::move(boundaries);
+}
+template <class Boundary>
+std::vector<kernel::Boundary> ends_of(std::vector<Boundary>&& boundaries) {
+    std::vector<kernel::Boundary> result;
+    result.reserve(boundaries.size());
+    for (const Boundary& e : boundaries) result.push_back({static_cast<double>(e.t), e.solid, e.surface});
     return result;
 }
 
@@ -179,7 +181,7 @@ public:
         }
     }
     std::size_t ray_bytes() const override { return sizeof(k::RayRecord); }
-    std::size_t end_bytes() const override { return sizeof(k::End); }
+    std::size_t boundary_bytes() const override { return sizeof(k::Boundary); }
     std::size_t overlap_bytes() const override { return sizeof(k::OverlapRecord); }
     std::size_t wide_bytes() const override { return sizeof(wide); }
     std::vector<kernel::OverlapRecord> overlap_records(const std::vector<std::byte>& bytes) const override {
@@ -190,27 +192,30 @@ public:
             overlap_records.push_back({static_cast<double>(p.in), static_cast<double>(p.out), p.ray, p.node});
         return overlap_records;
     }
-    std::vector<kernel::End> ends(const std::vector<std::byte>& bytes) const override {
-        std::vector<k::End> ends(bytes.size() / sizeof(k::End));
-        if (!ends.empty()) std::memcpy(ends.data(), bytes.data(), bytes.size());
-        return ends_of(std::move(ends));
+    std::vector<kernel::Boundary> boundaries(const std::vector<std::byte>& bytes) const override {
+        std::vector<k::Boundary> boundaries(bytes.size() / sizeof(k::Boundary));
+        if (!boundaries.empty()) std::memcpy(boundaries.data(), bytes.data(), bytes.size());
+        return ends_of(std::move(boundaries));
     }
 
-    void append_rows(const kernel::Frame& f, const kernel::RayRecord& ray, const std::vector<kernel::End>& ends,
-                     const std::vector<kernel::PartitionNode>& nodes, Fields fields, RowMemory& rows,
+    void append_rows(const kernel::Frame& f, const kernel::RayRecord& ray,
+                     const std::vector<kernel::Boundary>& boundaries, const std::vector<kernel::PartitionNode>& nodes,
+                     Fields fields, RowMemory& rows,
                      std::vector<kernel::OverlapRecord>& overlap_records) const override {
         const k::Frame& frame = convert_frame(f);
         const k::RayRecord record = convert(ray);
-        std::vector<k::End> own_ends;
-        for (const kernel::End& e : ends) own_ends.push_back({static_cast<real>(e.t), e.solid, e.surface});
+        std::vector<k::Boundary> own_ends;
+        for (const kernel::Boundary& e : boundaries) own_ends.push_back({static_cast<real>(e.t), e.solid, e.surface});
         std::vector<k::PartitionNode> own_nodes;
-        for (const kernel::PartitionNode& n : nodes) own_nodes.push_back({n.in_end, n.out_end, n.next, n.owner});
+        for (const kernel::PartitionNode& n : nodes)
+            own_nodes.push_back({n.in_boundary, n.out_boundary, n.next, n.owner});
         k::ray_rows w = k::rows_of(&frame, record, own_ends.data(), own_nodes.data(),
                                    static_cast<k::u32>(nodes.size() / 2)),
                     overlaps = w;
         const k::ray3 r = k::geometry_ray(&frame, k::listed_ray(record));
         const auto describe = [&](k::u32 number, k::u32 is_out, auto& solids, auto& normals) {
-            if (fields.solids) solids.push_back(number == NONE ? -1 : static_cast<std::int32_t>(ends[number].solid));
+            if (fields.solids)
+                solids.push_back(number == NONE ? -1 : static_cast<std::int32_t>(boundaries[number].solid));
             if (!fields.normals) return;
             const k::vec3 n =
                 number == NONE ? k::make_vec3(0, 0, 0) : k::row_normal(g_, r, own_ends[number], number, is_out);
@@ -221,8 +226,8 @@ public:
             rows.regions.push_back(static_cast<std::int32_t>(row.region));
             rows.in.push_back(static_cast<double>(row.in));
             rows.out.push_back(static_cast<double>(row.out));
-            describe(row.in_end, 0, rows.in_solids, rows.in_normals);
-            describe(row.out_end, 1, rows.out_solids, rows.out_normals);
+            describe(row.in_boundary, 0, rows.in_solids, rows.in_normals);
+            describe(row.out_boundary, 1, rows.out_solids, rows.out_normals);
         }
         overlap_records.clear();
         for (k::u32 node = 0; k::next_overlap(&overlaps, &row, &node);)
@@ -242,15 +247,15 @@ public:
         }
     }
     std::span<const WovenPartition> trace(const kernel::Frame& f, const kernel::RayRecord& ray,
-                                          [[maybe_unused]] const NearSolids& near, std::vector<kernel::End>& ends,
-                                          Weaver& weaver) const override {
+                                          [[maybe_unused]] const NearSolids& near,
+                                          std::vector<kernel::Boundary>& boundaries, Weaver& weaver) const override {
         const k::Frame& frame = convert_frame(f);
         const k::RayRecord record = convert(ray);
         const k::ray3 r = k::geometry_ray(&frame, k::listed_ray(record));
         const real t_min = frame.work == WORK_RAYS
                                ? k::range_of(&frame, record, r).t_min
                                : k::parameter_at(r, k::range_in_view(&frame, k::listed_ray(record)).from);
-        std::vector<k::End> own = again(std::move(ends), static_cast<k::End*>(nullptr));
+        std::vector<k::Boundary> own = again(std::move(boundaries), static_cast<k::Boundary*>(nullptr));
         const auto meet = [&](std::uint32_t solid) {
             const k::u32 segments = k::collect(g_, solids_[solid], solid, r, t_min, nullptr);
             if (segments == 0) return;
@@ -267,7 +272,7 @@ public:
             meet_boxes(frame, r, t_min, meet);
         }
         const std::span<const WovenPartition> woven = weave(own, k::tolerance_along(&frame, r), weaver);
-        ends = ends_of(std::move(own));
+        boundaries = ends_of(std::move(own));
         return woven;
     }
     Seen seen(const kernel::Frame& f, const Ray& ray) const override {
@@ -280,12 +285,12 @@ public:
     }
     kernel::Pixel hit_pixel(const kernel::Frame& f, const std::vector<kernel::LightRecord>& lights,
                             std::uint32_t region, const kernel::MaterialRecord& material, const Ray& ray,
-                            const kernel::End& end, bool leaves) const override {
+                            const kernel::Boundary& end, bool leaves) const override {
         const k::Frame& frame = convert_frame(f);
         const k::world_ray w = convert_ray(ray);
         const k::ray3 r = k::geometry_ray(&frame, w);
         const auto& records = lights_of(lights);
-        const k::End seen{static_cast<real>(end.t), end.solid, end.surface};
+        const k::Boundary seen{static_cast<real>(end.t), end.solid, end.surface};
         const k::Pixel pixel = k::seen_pixel(&frame, records.data(), convert(material), g_, r,
                                              k::range_in_view(&frame, w), seen, leaves, region);
         kernel::Pixel result;
@@ -311,7 +316,7 @@ private:
             i = met && !node.leaf ? i + 1 : node.skip;
         }
     }
-    k::vec3 normal_at(const k::ray3& r, const kernel::End& end) const {
+    k::vec3 normal_at(const k::ray3& r, const kernel::Boundary& end) const {
         return k::normal_at(g_, solids_[end.solid], r, static_cast<real>(end.t), end.surface);
     }
     static Converted<k::LightRecord, kernel::LightRecord> lights_of(const std::vector<kernel::LightRecord>& lights) {

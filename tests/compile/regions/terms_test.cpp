@@ -70,15 +70,16 @@ TEST_CASE("a term's value is its tree's, whether it is scanned, walked or told b
         }
         for (int shot = 0; shot < 20; ++shot) {
             // A segment of every solid; some cover the partition.
-            std::vector<kernel::End> ends(2 * solids);
+            std::vector<kernel::Boundary> boundaries(2 * solids);
             std::vector<std::uint32_t> bits(kernel::words_of(solids));
             std::vector<bool> covered(solids);
             for (std::uint32_t s = 0; s < solids; ++s) {
-                ends[2 * s].solid = ends[2 * s + 1].solid = s;
+                boundaries[2 * s].solid = boundaries[2 * s + 1].solid = s;
                 covered[s] = random.below(4) < static_cast<std::uint32_t>(shot) % 5;
                 if (covered[s]) bits[s / 32] |= 1u << s % 32;
             }
-            const kernel::cover cover{ends.data(), bits.data(), solids, 0, 0, 0, records.data(), nullptr, words.data()};
+            const kernel::cover cover{boundaries.data(), bits.data(), solids,      0, 0, 0,
+                                      records.data(),    nullptr,     words.data()};
             kernel::covered_solids list;
             kernel::list_covered(cover, &list);
             const bool expected = value_of(tree, covered);

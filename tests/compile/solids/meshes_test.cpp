@@ -169,13 +169,13 @@ TEST_CASE("meshes: with gaps, an in and the very next out are a pair if the tria
             for (const double t_min : {-1.0, 10.0, 11.5, 13.0, 15.0}) {
                 const kernel::ray3 r{{0.2, 0.1, -10}, {0, 0, 1}};
                 const auto count = kernel::collect(g, compiled.solids[0], 0, r, t_min, nullptr);
-                std::vector<kernel::End> ends(2 * count);
-                REQUIRE(kernel::collect(g, compiled.solids[0], 0, r, t_min, ends.data()) == count);
+                std::vector<kernel::Boundary> boundaries(2 * count);
+                REQUIRE(kernel::collect(g, compiled.solids[0], 0, r, t_min, boundaries.data()) == count);
                 Lengths found, wanted;
-                for (std::size_t i = 0; i < ends.size(); i += 2) {
-                    CHECK(ends[i].t <= ends[i + 1].t);
-                    if (i > 0) CHECK(ends[i - 1].t <= ends[i].t);
-                    if (ends[i].t < ends[i + 1].t) found.emplace_back(ends[i].t, ends[i + 1].t);
+                for (std::size_t i = 0; i < boundaries.size(); i += 2) {
+                    CHECK(boundaries[i].t <= boundaries[i + 1].t);
+                    if (i > 0) CHECK(boundaries[i - 1].t <= boundaries[i].t);
+                    if (boundaries[i].t < boundaries[i + 1].t) found.emplace_back(boundaries[i].t, boundaries[i + 1].t);
                 }
                 for (const auto& one : expected)
                     if (one.second >= t_min) wanted.push_back(one);
@@ -190,15 +190,15 @@ TEST_CASE("meshes: from t_min on, the solid is known to be entered before it", "
     const kernel::Geometry g = tables(one);
     const kernel::ray3 r{{0.2, 0.1, -5}, {0, 0, 1}};
     for (const double t_min : {-1e300, 3.9, 4.1, 5.9, 6.1}) {
-        kernel::End ends[2] = {};
+        kernel::Boundary boundaries[2] = {};
         const auto count = kernel::collect(g, one.solids[0], 0, r, t_min, nullptr);
         CHECK(count == (t_min < 6 ? 1u : 0u));
-        CHECK(kernel::collect(g, one.solids[0], 0, r, t_min, ends) == count);
+        CHECK(kernel::collect(g, one.solids[0], 0, r, t_min, boundaries) == count);
         if (count == 0) continue;
-        CHECK(ends[0].t == 4);
-        CHECK(ends[1].t == 6);
-        CHECK((ends[0].surface & LEAVES) == 0);
-        CHECK((ends[1].surface & LEAVES) != 0);
+        CHECK(boundaries[0].t == 4);
+        CHECK(boundaries[1].t == 6);
+        CHECK((boundaries[0].surface & LEAVES) == 0);
+        CHECK((boundaries[1].surface & LEAVES) != 0);
     }
 }
 

@@ -43,20 +43,22 @@ using namespace csgrt;
     FIELD(ScreenBounds, left) FIELD(ScreenBounds, top) FIELD(ScreenBounds, right) FIELD(ScreenBounds, bottom) \
     RECORD(RayRecord) \
     FIELD(RayRecord, ox) FIELD(RayRecord, oy) FIELD(RayRecord, oz) FIELD(RayRecord, dx) FIELD(RayRecord, dy) \
-    FIELD(RayRecord, dz) FIELD(RayRecord, t_near) FIELD(RayRecord, t_far) RECORD(RowEnds) FIELD(RowEnds, ray) \
-    FIELD(RowEnds, in_end) FIELD(RowEnds, out_end) RECORD(OverlapRecord) FIELD(OverlapRecord, in) \
-    FIELD(OverlapRecord, out) FIELD(OverlapRecord, ray) FIELD(OverlapRecord, node) RECORD(TileNode) \
+    FIELD(RayRecord, dz) FIELD(RayRecord, t_near) FIELD(RayRecord, t_far) RECORD(RowBoundaries) \
+    FIELD(RowBoundaries, ray) FIELD(RowBoundaries, in_boundary) FIELD(RowBoundaries, out_boundary) \
+    RECORD(OverlapRecord) FIELD(OverlapRecord, in) FIELD(OverlapRecord, out) FIELD(OverlapRecord, ray) \
+    FIELD(OverlapRecord, node) RECORD(TileNode) \
     FIELD(TileNode, node) FIELD(TileNode, entry) \
     RECORD(BatchReport) FIELD(BatchReport, candidates) FIELD(BatchReport, total) FIELD(BatchReport, tiles) \
     FIELD(BatchReport, listed) \
     FIELD(BatchReport, entries) FIELD(BatchReport, overflows) RECORD(RayCount) FIELD(RayCount, segments) \
     FIELD(RayCount, words) RECORD(CandidateCount) FIELD(CandidateCount, candidates) \
     FIELD(CandidateCount, unused) RECORD(Candidate) \
-    FIELD(Candidate, ray) FIELD(Candidate, solid) FIELD(Candidate, count) FIELD(Candidate, before) RECORD(End) \
-    FIELD(End, t) FIELD(End, solid) FIELD(End, surface) RECORD(PartitionNode) FIELD(PartitionNode, in_end) \
-    FIELD(PartitionNode, out_end) FIELD(PartitionNode, next) FIELD(PartitionNode, owner) \
+    FIELD(Candidate, ray) FIELD(Candidate, solid) FIELD(Candidate, count) FIELD(Candidate, before) RECORD(Boundary) \
+    FIELD(Boundary, t) FIELD(Boundary, solid) FIELD(Boundary, surface) RECORD(PartitionNode) \
+    FIELD(PartitionNode, in_boundary) FIELD(PartitionNode, out_boundary) FIELD(PartitionNode, next) \
+    FIELD(PartitionNode, owner) \
     RECORD(DeepRay) FIELD(DeepRay, ray) FIELD(DeepRay, block) FIELD(DeepRay, segment) FIELD(DeepRay, event) \
-    FIELD(DeepRay, at) FIELD(DeepRay, changed) FIELD(DeepRay, in_end) FIELD(DeepRay, out_end) \
+    FIELD(DeepRay, at) FIELD(DeepRay, changed) FIELD(DeepRay, in_boundary) FIELD(DeepRay, out_boundary) \
     FIELD(DeepRay, open) FIELD(DeepRay, last) FIELD(DeepRay, open_solids) FIELD(DeepRay, partitions) \
     FIELD(DeepRay, sides) RECORD(DeepSegment) FIELD(DeepSegment, first) FIELD(DeepSegment, is_open) \
     FIELD(DeepSegment, covers) \

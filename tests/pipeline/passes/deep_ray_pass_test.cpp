@@ -45,11 +45,11 @@ TEST_CASE("deep rays have the same answers in groups of any size and in any numb
     const std::vector<RayPartitions> expected = shot.expected();
     const std::uint32_t usual_rays = shot.pass.deep_rays().rays_at_a_time,
                         usual_ends = shot.pass.deep_rays().ends_a_launch;
-    for (const auto& [rays, ends] :
+    for (const auto& [rays, boundaries] :
          {std::pair{usual_rays, usual_ends}, {7u, usual_ends}, {1u, 100u}, {usual_rays, 1u}, {64u, 37u}}) {
-        INFO(rays << " rays at a time, " << ends << " ends a launch");
+        INFO(rays << " rays at a time, " << boundaries << " ends a launch");
         shot.pass.deep_rays().rays_at_a_time = rays;
-        shot.pass.deep_rays().ends_a_launch = ends;
+        shot.pass.deep_rays().ends_a_launch = boundaries;
         REQUIRE(shot.trace());
         test::require_same(shot.answers(), expected);
     }
