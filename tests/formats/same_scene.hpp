@@ -24,16 +24,21 @@ public:
         for (const Object& object : scene.objects) {
             add(object.index(), name_of(object));
             if (const auto* solid = std::get_if<Solid>(&object)) {
-                add(solid->shape.index());
-                std::visit([this](const auto& shape) { add_shape(shape); }, solid->shape);
+                add_any(solid->shape);
             } else {
                 add_combination(std::get<Combination>(object));
             }
         }
     }
+    explicit SceneBytes(const Shape& shape) { add_any(shape); }
+    explicit SceneBytes(const Combination& combination) { add_combination(combination); }
     const std::string& bytes() const { return bytes_; }
 
 private:
+    void add_any(const Shape& any) {
+        add(any.index());
+        std::visit([this](const auto& shape) { add_shape(shape); }, any);
+    }
     template <class... T>
     void add(const T&... values) {
         (add_one(values), ...);
@@ -112,6 +117,12 @@ private:
     std::string bytes_;
 };
 
+/// Name, tree and place aside.
+inline bool same_attributes(Combination a, Combination b) {
+    for (Combination* combination : {&a, &b}) combination->name.clear(), combination->tree = {};
+    return SceneBytes(a).bytes() == SceneBytes(b).bytes();
+}
 inline bool same_scene(const Scene& a, const Scene& b) { return SceneBytes(a).bytes() == SceneBytes(b).bytes(); }
+inline bool same_shape(const Shape& a, const Shape& b) { return SceneBytes(a).bytes() == SceneBytes(b).bytes(); }
 
 }  // namespace csgrt

@@ -3,11 +3,11 @@
 
 #include <string>
 #include <string_view>
-#include <string_view>
 #include <vector>
 
 #include "catch.hpp"
 #include "formats/brlcad/asc.hpp"
+#include "formats/same_scene.hpp"
 #include "formats/text_source.hpp"
 
 namespace csgrt::asc_test {
@@ -50,6 +50,30 @@ inline void check_broken(const Broken& broken) {
     CHECK(finding.excerpt.back() == '^');
 }
 
+struct Attempts {
+    std::size_t read = 0, refused = 0;
+};
+
+/// What becomes of every beginning of a sound file's bytes, and of each byte that is made each of `values`. All that is
+/// refused must be an error of the scene.
+template <class Parse>
+Attempts changed(const std::string& bytes, const std::string& values, const Parse& parse) {
+    Attempts attempts;
+    const auto attempt = [&](const std::string& text) {
+        try {
+            parse(text);
+            ++attempts.read;
+        } catch (const Error& error) {
+            ++attempts.refused;
+            if (error.status() != Status::scene) FAIL("a broken database is an error of the scene");
+        }
+    };
+    for (std::size_t length = 0; length <= bytes.size(); ++length) attempt(bytes.substr(0, length));
+    for (std::size_t i = 0; i < bytes.size(); ++i)
+        for (const char value : values) attempt(std::string(bytes).replace(i, 1, 1, value));
+    return attempts;
+}
+
 inline const Combination& comb(const Scene& scene, std::string_view name) {
     const Object* object = scene.find(std::string(name));
     REQUIRE(object != nullptr);
@@ -70,6 +94,19 @@ const T& shape(const Scene& scene, std::string_view name) {
 inline std::string unsupported_type(const Scene& scene, const std::string& name) {
     return shape<Unsupported>(scene, name).type;
 }
+
+/// A region with every attribute, which the tests of each form write.
+inline const Combination glass_region{
+    .region = true,
+    .region_id = 1001,
+    .air = 3,
+    .material_id = 7,
+    .los = 50,
+    .color = Vec3{1, 0, 0.2},
+    .finish = Finish{.shader = "glass", .shine = 4, .transmit = 0.85, .reflect = 0.1},
+    .color_inherits = true,
+    .finish_inherits = true,
+};
 
 /// The tree written out: names, and operators with their operands in brackets.
 inline std::string written(const Tree& tree) {

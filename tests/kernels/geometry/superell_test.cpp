@@ -1,12 +1,8 @@
-#include "kernels/geometry/check_kernels.hpp"
+#include "catch.hpp"
 #include "kernels/geometry/kernel_answer.hpp"
 
 using namespace csgrt;
 
-// The oracle's powers take their time.
-TEST_CASE("geometry: superell agrees with the oracle", "[geometry]") {
-    check_kernels(oracle::Kind::superell, short_run / 10, 1);
-}
 // It leaves at a pole, where x and y are 0 within a bit of each other, and both have powers below 1.
 TEST_CASE("geometry: a ray through the middle and a pole of a superell meets it once") {
     Superell shape;
@@ -37,7 +33,4 @@ TEST_CASE("geometry: a ray through the middle and a pole of a superell meets it 
     // By bisection of the formula in 40 digits; no closer than the rounding of numbers of some 10^6.
     CHECK(segments.front().in == Approx(-2403793.3181273337).margin(1e-5));
     CHECK(segments.front().out == Approx(-1899690.8127356372).margin(1e-4));
-}
-TEST_CASE("geometry: superell agrees with the oracle on 50,000 rays", "[.long]") {
-    check_kernels(oracle::Kind::superell, 50'000, 2);
 }

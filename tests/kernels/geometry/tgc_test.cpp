@@ -1,12 +1,8 @@
-#include "kernels/geometry/check_kernels.hpp"
+#include "catch.hpp"
 #include "kernels/geometry/kernel_answer.hpp"
+#include "oracle/solids/all.hpp"
 
 using namespace csgrt;
-
-TEST_CASE("geometry: tgc agrees with the oracle", "[geometry]") { check_kernels(oracle::Kind::tgc, short_run, 1); }
-TEST_CASE("geometry: tgc agrees with the oracle on a million rays", "[.long]") {
-    check_kernels(oracle::Kind::tgc, long_run, 2);
-}
 
 // The two vectors of an axis are parallel to 1e-7 in BRL-CAD's models: csgrt, the oracle and BRL-CAD take the base's
 // direction.

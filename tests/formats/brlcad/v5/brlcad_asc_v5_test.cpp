@@ -35,39 +35,6 @@ TEST_CASE("v5: title, units and colours", "[asc]") {
     CHECK(parse("title two  words\n").title == "two words");
 }
 
-TEST_CASE("v5: solids", "[asc]") {
-    const Scene scene = parse(
-        "title {}\nunits m\n"
-        "put {ell} ell V {1 2 3} A {4 0 0} B {0 5 0} C {0 0 6}\n"
-        "put {sph} sph C {0 0 6} B {0 5 0} A {4 0 0} V {1 2 3}\n"
-        "put {tgc} tgc V {1 2 3}  H {4 5 6}  A {7 8 9}  B {10 11 12}  C {13 14 15}  D {16 17 18} \n"
-        "put {arb} arb8 V1 {1 1 1} V2 {2 2 2} V3 {3 3 3} V4 {4 4 4} V5 {5 5 5} V6 {6 6 6} V7 {7 7 7} V8 {8 8 8}\n"
-        "put {arbn} arbn N 2 P0 {0 0 1 5} P1 {0 0 -4 20}\n"
-        "put {half} half N {0 -2 0} d 8\n"
-        "put {tor} tor V {1 2 3} H {0 0 7} r_a 5 r_h 2.5\n"
-        "put {ehy} ehy V {1 2 3} H {0 0 5} A {0 2 0} r_1 7 r_2 8 c 9\n"
-        "put {surface} brep data {0 0 1}\n");
-    CHECK(shape<Ell>(scene, "ell").v == Vec3{1, 2, 3});  // millimetres, whatever the unit
-    CHECK(shape<Ell>(scene, "sph").b == Vec3{0, 5, 0});
-    CHECK(shape<Tgc>(scene, "tgc").h == Vec3{4, 5, 6});
-    CHECK(shape<Tgc>(scene, "tgc").d == Vec3{16, 17, 18});
-    for (std::size_t i = 0; i < 8; ++i) CHECK(shape<Arb>(scene, "arb").vertices[i].y == static_cast<double>(i + 1));
-    REQUIRE(shape<Arbn>(scene, "arbn").planes.size() == 2);
-    CHECK(shape<Arbn>(scene, "arbn").planes[1].normal == Vec3{0, 0, -1});
-    CHECK(shape<Arbn>(scene, "arbn").planes[1].distance == 5);
-    CHECK(shape<Half>(scene, "half").plane.normal == Vec3{0, -1, 0});
-    CHECK(shape<Half>(scene, "half").plane.distance == 4);
-    CHECK(shape<Tor>(scene, "tor").h == Vec3{0, 0, 7});
-    CHECK(shape<Tor>(scene, "tor").r_a == 5);
-    CHECK(shape<Tor>(scene, "tor").r_h == 2.5);
-    CHECK(shape<Ehy>(scene, "ehy").a == Vec3{0, 1, 0});
-    CHECK(shape<Ehy>(scene, "ehy").r_2 == 8);
-    CHECK(shape<Ehy>(scene, "ehy").c == 9);
-    CHECK(unsupported_type(scene, "surface") == "brep");
-    CHECK(place_of(*scene.find("arb")).line == 6);
-    CHECK(place_of(*scene.find("arb")).column == 1);
-}
-
 TEST_CASE("v5: trees", "[asc]") {
     CHECK(tree_of("") == "");
     CHECK(tree_of(" l a ") == "a");
@@ -125,40 +92,26 @@ TEST_CASE("v5: a combination's attributes, in every spelling", "[asc]") {
         "attr set {b} {region} {P} {REGION_ID} {5} {air} {1} {GIFTmater} {2} {color} {0 255 0} {shader} {phong sh=5}\n"
         "put {c} comb region yes id 9 air 1 los 30 GIFTmater 4 rgb {0 0 255} shader {mirror} inherit yes tree {l x}\n"
         "put {d} comb region no shader {glass} tree {}\nattr set {d} {oshader} {}\n");
-    const Combination& a = comb(scene, "a");
-    CHECK(a.region);
-    CHECK(a.region_id == 1001);
-    CHECK(a.air == 3);
-    CHECK(a.material_id == 7);
-    CHECK(a.los == 50);
-    CHECK(a.color == Vec3{1, 0, 0.2});
-    REQUIRE(a.finish);
-    CHECK(a.finish->shader == "glass");
-    CHECK(a.finish->transmit == 0.85);
-    CHECK(a.color_inherits);
-    CHECK(a.finish_inherits);
-
+    CHECK(same_attributes(comb(scene, "a"), glass_region));
     const Combination& b = comb(scene, "b");
-    CHECK(b.region);
-    CHECK(a.fastgen == Fastgen::none);
-    CHECK(b.fastgen == Fastgen::plate);
-    CHECK(b.region_id == 5);
-    CHECK(b.air == 1);
-    CHECK(b.material_id == 2);
-    CHECK(b.color == Vec3{0, 1, 0});
-    CHECK(b.finish->shine == 5);
-    CHECK_FALSE(b.color_inherits);
+    CHECK(same_attributes(b, {.region = true,
+                              .fastgen = Fastgen::plate,
+                              .region_id = 5,
+                              .air = 1,
+                              .material_id = 2,
+                              .color = Vec3{0, 1, 0},
+                              .finish = Finish{.shader = "phong", .shine = 5}}));
     CHECK(b.tree.nodes.empty());
-
-    const Combination& c = comb(scene, "c");
-    CHECK(c.region);
-    CHECK(c.region_id == 9);
-    CHECK(c.air == 1);
-    CHECK(c.los == 30);
-    CHECK(c.material_id == 4);
-    CHECK(c.color == Vec3{0, 0, 1});
-    CHECK(c.finish->shader == "mirror");
-    CHECK(c.finish_inherits);
+    const Finish mirror{.shader = "mirror", .specular = 0.6, .diffuse = 0.4, .shine = 4, .reflect = 0.75};
+    CHECK(same_attributes(comb(scene, "c"), {.region = true,
+                                             .region_id = 9,
+                                             .air = 1,
+                                             .material_id = 4,
+                                             .los = 30,
+                                             .color = Vec3{0, 0, 1},
+                                             .finish = mirror,
+                                             .color_inherits = true,
+                                             .finish_inherits = true}));
 
     CHECK_FALSE(comb(scene, "d").region);
     CHECK_FALSE(comb(scene, "d").color);

@@ -1,8 +1,0 @@
-#include "kernels/geometry/check_kernels.hpp"
-
-using namespace csgrt;
-
-TEST_CASE("geometry: ell agrees with the oracle", "[geometry]") { check_kernels(oracle::Kind::ell, short_run, 1); }
-TEST_CASE("geometry: ell agrees with the oracle on a million rays", "[.long]") {
-    check_kernels(oracle::Kind::ell, long_run, 2);
-}

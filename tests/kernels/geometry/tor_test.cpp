@@ -1,8 +1,0 @@
-#include "kernels/geometry/check_kernels.hpp"
-
-using namespace csgrt;
-
-TEST_CASE("geometry: tor agrees with the oracle", "[geometry]") { check_kernels(oracle::Kind::tor, short_run, 1); }
-TEST_CASE("geometry: tor agrees with the oracle on a million rays", "[.long]") {
-    check_kernels(oracle::Kind::tor, long_run, 2);
-}
