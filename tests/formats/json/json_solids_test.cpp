@@ -5,6 +5,7 @@
 
 #include "formats/json/write/writer.hpp"
 #include "formats/json/parse_text.hpp"
+#include "formats/same_scene.hpp"
 #include "scene/make_scene.hpp"
 #include "scene/vector.hpp"
 
@@ -26,54 +27,47 @@ bool contains(const std::string& text, const std::string& part) { return text.fi
 
 }  // namespace
 
-TEST_CASE("json solids: lengths are in the file's unit, shares and directions are not") {
-    const Part part =
-        read<Part>(R"({"type": "part", "base": [1, 0, 0], "height": [0, 0, 2], "radius": 3, "top_radius": 4})");
-    CHECK(part.v == Vec3{10, 0, 0});
-    CHECK(part.h == Vec3{0, 0, 20});
-    CHECK(part.r_v == 30);
-    CHECK(part.r_h == 40);
-    const Epa epa =
-        read<Epa>(R"({"type": "epa", "base": [1, 0, 0], "height": [0, 0, 2], "a": [3, 0, 0], "r1": 4, "r2": 5})");
-    CHECK(epa.a == Vec3{1, 0, 0});
-    CHECK(epa.r_1 == 40);
-    CHECK(epa.r_2 == 50);
-    const Rhc rhc = read<Rhc>(
-        R"({"type": "rhc", "base": [1, 0, 0], "height": [0, 2, 0], "b": [0, 0, 3], "half_width": 4, "c": 5})");
-    CHECK(rhc.b == Vec3{0, 0, 30});
-    CHECK(rhc.r == 40);
-    CHECK(rhc.c == 50);
-    const Eto eto =
-        read<Eto>(R"({"type": "eto", "center": [1, 0, 0], "axis": [0, 0, 2], "radius": 9, "c": [0, 0, 3], "d": 4})");
-    CHECK(eto.n == Vec3{0, 0, 2});
-    CHECK(eto.r == 90);
-    CHECK(eto.c == Vec3{0, 0, 30});
-    CHECK(eto.r_d == 40);
-    const Hyp hyp =
-        read<Hyp>(R"({"type": "hyp", "base": [0, 0, 0], "height": [0, 0, 2], "a": [3, 0, 0], "b": 4, "neck": 0.5})");
-    CHECK(hyp.a == Vec3{30, 0, 0});
-    CHECK(hyp.b == 40);
-    CHECK(hyp.neck == 0.5);
-    const Superell superell = read<Superell>(
-        R"({"type": "superell", "center": [0, 0, 0], "a": [1, 0, 0], "b": [0, 1, 0], "c": [0, 0, 1], "n": 0.5})");
-    CHECK(superell.a == Vec3{10, 0, 0});
-    CHECK(superell.n == 0.5);
-    CHECK(superell.e == 1);
-    const Metaball metaball = read<Metaball>(
-        R"({"type": "metaball", "method": "blob", "threshold": 2,
-            "points": [{"position": [1, 0, 0], "strength": 3}]})");
-    CHECK(metaball.method == Metaball::Method::blob);
-    CHECK(metaball.threshold == 2);
-    CHECK(metaball.points.at(0).strength == 30);
-    CHECK(metaball.points.at(0).softness == 1);
-    const Pipe pipe = read<Pipe>(
-        R"({"type": "pipe",
-            "points": [{"position": [1, 0, 0], "outer": 4, "inner": 2, "bend": 3},
-            {"position": [2, 0, 0], "outer": 4}]})");
-    CHECK(pipe.points.at(0).outer == 40);
-    CHECK(pipe.points.at(0).inner == 20);
-    CHECK(pipe.points.at(0).bend == 30);
-    CHECK(pipe.points.at(1).inner == 0);
+TEST_CASE("json solids: each key in its place, lengths in the file's unit, shares and directions not") {
+    const std::pair<const char*, Shape> solids[] = {
+        {R"("sphere", "center": [1, 2, 3], "radius": 4)", Ell{{10, 20, 30}, {40, 0, 0}, {0, 40, 0}, {0, 0, 40}}},
+        {R"("ell", "center": [1, 0, 2], "a": [1, 0, 0], "b": [0, 2, 0], "c": [0, 0, 3])",
+         Ell{{10, 0, 20}, {10, 0, 0}, {0, 20, 0}, {0, 0, 30}}},
+        {R"("tgc", "base": [1, 0, 0], "height": [0, 0, 2], "a": [3, 0, 0], "b": [0, 4, 0], "c": [5, 0, 0],
+             "d": [0, 6, 0])",
+         Tgc{{10, 0, 0}, {0, 0, 20}, {30, 0, 0}, {0, 40, 0}, {50, 0, 0}, {0, 60, 0}}},
+        {R"("box", "low": [0, 0, 0], "high": [1, 2, 3])",
+         Arb{{{{10, 0, 0}, {10, 20, 0}, {10, 20, 30}, {10, 0, 30}, {0, 0, 0}, {0, 20, 0}, {0, 20, 30}, {0, 0, 30}}}}},
+        // The distance is along the normal, whatever its length.
+        {R"("half", "normal": [0, 0, 5], "distance": 7)", Half{{{0, 0, 1}, 70}}},
+        {R"("arbn", "planes": [{"normal": [3, 4, 0], "distance": 1}])", Arbn{{{{0.6, 0.8, 0}, 10}}}},
+        {R"("tor", "center": [0, 0, 1], "axis": [0, 0, 9], "radius": 3, "tube": 2)",
+         Tor{{0, 0, 10}, {0, 0, 9}, 30, 20}},
+        {R"("ehy", "base": [0, 0, 1], "height": [0, 0, 2], "a": [2, 0, 0], "r1": 3, "r2": 4, "c": 5)",
+         Ehy{{0, 0, 10}, {0, 0, 20}, {1, 0, 0}, 30, 40, 50}},
+        {R"("part", "base": [1, 0, 0], "height": [0, 0, 2], "radius": 3, "top_radius": 4)",
+         Part{{10, 0, 0}, {0, 0, 20}, 30, 40}},
+        {R"("epa", "base": [1, 0, 0], "height": [0, 0, 2], "a": [3, 0, 0], "r1": 4, "r2": 5)",
+         Epa{{10, 0, 0}, {0, 0, 20}, {1, 0, 0}, 40, 50}},
+        {R"("rhc", "base": [1, 0, 0], "height": [0, 2, 0], "b": [0, 0, 3], "half_width": 4, "c": 5)",
+         Rhc{{10, 0, 0}, {0, 20, 0}, {0, 0, 30}, 40, 50}},
+        {R"("eto", "center": [1, 0, 0], "axis": [0, 0, 2], "radius": 9, "c": [0, 0, 3], "d": 4)",
+         Eto{{10, 0, 0}, {0, 0, 2}, {0, 0, 30}, 90, 40}},
+        {R"("hyp", "base": [0, 0, 0], "height": [0, 0, 2], "a": [3, 0, 0], "b": 4, "neck": 0.5)",
+         Hyp{{0, 0, 0}, {0, 0, 20}, {30, 0, 0}, 40, 0.5}},
+        {R"("superell", "center": [0, 0, 0], "a": [1, 0, 0], "b": [0, 1, 0], "c": [0, 0, 1], "n": 0.5)",
+         Superell{{0, 0, 0}, {10, 0, 0}, {0, 10, 0}, {0, 0, 10}, 0.5, 1}},
+        {R"("metaball", "method": "blob", "threshold": 2, "points": [{"position": [1, 0, 0], "strength": 3}])",
+         Metaball{Metaball::Method::blob, 2, {{{10, 0, 0}, 30, 1}}}},
+        {R"("pipe", "points": [{"position": [1, 0, 0], "outer": 4, "inner": 2, "bend": 3},
+             {"position": [2, 0, 0], "outer": 4}])",
+         Pipe{{{{10, 0, 0}, 40, 20, 30}, {{20, 0, 0}, 40, 0, 0}}}},
+        {R"("unsupported", "was": "pipe")", Unsupported{"pipe"}},
+    };
+    for (const auto& [text, expected] : solids) {
+        const Shape found = shape_of(std::string(R"({"type": )") + text + "}", "cm");
+        INFO(text << " is\n" << json_scene_text(make_scene({solid("s", found)})));
+        CHECK(same_shape(found, expected));
+    }
 }
 
 TEST_CASE("json solids: a mesh's thickness is one number, or one a face", "[promise:scenes]") {
@@ -152,32 +146,19 @@ TEST_CASE("json solids: matrices of cells", "[promise:scenes]") {
 }
 
 TEST_CASE("json solids: sketches", "[promise:scenes]") {
-    const Extrude extrude = read<Extrude>(R"({"type": "extrude", "base": [1, 0, 0], "height": [0, 0, 2], "b": [0, 2, 0],
+    const Shape extrude = read<Extrude>(R"({"type": "extrude", "base": [1, 0, 0], "height": [0, 0, 2], "b": [0, 2, 0],
         "sketch": {"vertices": [[1, 2], [3, 4], [5, 6]],
             "curves": [{"line": [0, 1]}, {"circle": [0, 1], "reversed": true},
         {"arc": [1, 2], "radius": 3, "clockwise": true}, {"arc": [1, 2], "radius": -1, "center_left": true},
         {"bezier": [0, 2, 1]},
         {"nurb": [0, 1], "order": 2, "knots": [0, 0, 1, 1], "weights": [1, 2]}]}})");
-    CHECK(extrude.h == Vec3{0, 0, 20});
-    CHECK(extrude.a == Vec3{1, 0, 0});
-    CHECK(extrude.b == Vec3{0, 2, 0});
-    const Sketch& sketch = extrude.sketch;
-    CHECK(sketch.vertices.at(1).u == 30);
-    CHECK(sketch.vertices.at(1).v == 40);
-    REQUIRE(sketch.curves.size() == 6);
-    CHECK(sketch.reversed == std::vector<std::uint8_t>{0, 1, 0, 0, 0, 0});
-    const auto& circle = std::get<Sketch::Arc>(sketch.curves[1]);
-    CHECK(circle.start == 1);
-    CHECK(circle.end == 0);
-    CHECK(circle.radius == -1);
-    const auto& arc = std::get<Sketch::Arc>(sketch.curves[2]);
-    CHECK(arc.radius == 30);
-    CHECK(arc.clockwise);
-    CHECK_FALSE(arc.center_left);
-    CHECK(std::get<Sketch::Arc>(sketch.curves[3]).radius == -10);
-    const auto& nurb = std::get<Sketch::Nurb>(sketch.curves[5]);
-    CHECK(nurb.knots == std::vector<double>{0, 0, 1, 1});
-    CHECK(nurb.weights == std::vector<double>{1, 2});
+    const Sketch sketch{
+        "",
+        {{10, 20}, {30, 40}, {50, 60}},
+        {Sketch::Line{0, 1}, Sketch::Arc{1, 0, -1, false, false}, Sketch::Arc{1, 2, 30, false, true},
+         Sketch::Arc{1, 2, -10, true, false}, Sketch::Bezier{{0, 2, 1}}, Sketch::Nurb{2, {0, 0, 1, 1}, {0, 1}, {1, 2}}},
+        {0, 1, 0, 0, 0, 0}};
+    CHECK(same_shape(extrude, Extrude{{10, 0, 0}, {0, 0, 20}, {1, 0, 0}, {0, 2, 0}, sketch}));
     const std::string head =
         R"({"type": "extrude", "base": [0, 0, 0], "height": [0, 0, 1], "sketch": {"vertices": [], "curves": [)";
     CHECK(contains(complaint(head + R"({"line": [0, 1, 2]}]}})"), "expected 2 indices of vertices, found 3"));
