@@ -9,6 +9,7 @@
 
 #include "base/watch.hpp"
 #include "catch.hpp"
+#include "thrown.hpp"
 
 using namespace csgrt;
 
@@ -67,13 +68,7 @@ TEST_CASE("progress ends work before it begins, or as soon as it looks, but not 
     const auto ends = [&](int at, const std::function<void(Watch&)>& work) {
         calls = 0;
         end_at = at;
-        try {
-            Watch::over(progress, work);
-            return false;
-        } catch (const Error& error) {
-            CHECK(error.status() == Status::interrupted);
-            return true;
-        }
+        return !test::failure(Status::interrupted, [&] { Watch::over(progress, work); }).empty();
     };
     bool has_begun = false;
     CHECK(ends(1, [&](Watch&) { has_begun = true; }));

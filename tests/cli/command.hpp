@@ -129,6 +129,16 @@ inline Result run(const std::vector<std::string>& arguments, const How& how = {}
 
 inline bool contains(const std::string& text, const std::string& part) { return text.find(part) != text.npos; }
 
+/// Runs the command, which must end with `status` and say `words` on standard error.
+inline Result check_run(const std::vector<std::string>& arguments, int status, const std::string& words,
+                        const How& how = {}) {
+    Result result = run(arguments, how);
+    CAPTURE(arguments, result.out, result.err);
+    CHECK(result.status == status);
+    CHECK(contains(result.err, words));
+    return result;
+}
+
 /// Two balls that overlap, radius 10 about the origin and about (15, 0, 0), and a cube of 4 cut out of the first.
 inline constexpr const char* two_balls =
     "title {two balls}\n"

@@ -110,7 +110,5 @@ TEST_CASE("many braces that are never closed do not take time by their number's 
     const Folder folder;
     std::string text = "title many\nunits mm\n";
     for (int i = 0; i < 100'000; ++i) text += "put {a" + std::to_string(i) + "} half N {\n";  // 2.3 MB
-    const Result result = run({"info", folder.write("open.asc", text)});
-    CHECK(result.status == 3);
-    CHECK(contains(result.err, "csgrt: error: and at least "));
+    check_run({"info", folder.write("open.asc", text)}, 3, "csgrt: error: and at least ");
 }

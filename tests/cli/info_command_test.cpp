@@ -122,9 +122,7 @@ TEST_CASE("convert writes a scene that renders the same", "[promise:round-trip]"
     REQUIRE(run({"shoot", json, "--rays", rays, "--reference", "-o", folder / "b.txt"}).status == 0);
     CHECK(run({"compare", folder / "a.txt", folder / "b.txt"}).status == 0);
 
-    const Result onto_itself = run({"convert", json, folder / "./balls.json"});
-    CHECK(onto_itself.status == 2);
-    CHECK(contains(onto_itself.err, "OUT: "));
+    const Result onto_itself = check_run({"convert", json, folder / "./balls.json"}, 2, "OUT: ");
     CHECK(contains(onto_itself.err, "would overwrite IN"));
     CHECK(run({"convert", scene, folder / "none/balls.json"}).status == 6);
     CHECK(run({"convert", scene, "-"}, {.output = "/dev/full"}).status == 6);

@@ -40,10 +40,7 @@ TEST_CASE("a library for pictures that cannot be loaded is an error where the pi
     libraries.write(library_name("csgrt_image"), "no library");
     How how;
     how.environment = {{"LD_LIBRARY_PATH", libraries / ""}};
-    const Result result = run(drawing(scene, picture), how);
-    INFO(result.err);
-    CHECK(result.status == 6);
-    CHECK(contains(result.err, "cannot load the library for pictures: "));
+    const Result result = check_run(drawing(scene, picture), 6, "cannot load the library for pictures: ", how);
     CHECK(contains(result.err, library_name("csgrt_image")));
     CHECK(!fs::exists(picture));
     CHECK(run({"info", scene}, how).status == 0);

@@ -35,9 +35,9 @@ TEST_CASE("a database is drawn without its unknown solids, unless it must be str
     const std::string scene = folder.write("odd.asc", odd),
                       rays = folder.write("rays", "-50 1 2 1 0 0\n-50 0 0 1 0.01 0\n");
 
-    const Result refused = run({"shoot", scene, "odd.g", "--rays", rays, "--reference", "--strict"});
-    CHECK(refused.status == 3);
-    CHECK(contains(refused.err, "'odd.s' is a solid of type 'brep', which csgrt does not support; used by 'odd.r'"));
+    const Result refused =
+        check_run({"shoot", scene, "odd.g", "--rays", rays, "--reference", "--strict"}, 3,
+                  "'odd.s' is a solid of type 'brep', which csgrt does not support; used by 'odd.r'");
     CHECK(contains(refused.err, "--skip-unsupported"));
 
     const Result without = run({"shoot", scene, "even.g", "--rays", rays, "--reference"});
@@ -57,9 +57,7 @@ TEST_CASE("a database is drawn without its unknown solids, unless it must be str
         CHECK(partitions_only(skipped.out) == partitions_only(without.out));
     }
 
-    const Result nothing = run({"shoot", scene, "lone.r", "--rays", rays, "--reference"});
-    CHECK(nothing.status == 3);
-    CHECK(contains(nothing.err, "nothing to render"));
+    const Result nothing = check_run({"shoot", scene, "lone.r", "--rays", rays, "--reference"}, 3, "nothing to render");
     CHECK(contains(nothing.err, "odd.s: left out: a brep"));
 
     const Result info = run({"info", scene, "odd.g"});
@@ -72,9 +70,7 @@ TEST_CASE("a scene in JSON with an unknown solid is refused, unless it may be sk
     const Folder folder;
     const std::string database = folder.write("odd.asc", odd), scene = folder / "odd.json";
     REQUIRE(run({"convert", database, scene}).status == 0);
-    const Result refused = run({"info", scene, "odd.g"});
-    CHECK(refused.status == 3);
-    CHECK(contains(refused.err, "'odd.s' is a solid of type 'brep', which csgrt does not support"));
+    check_run({"info", scene, "odd.g"}, 3, "'odd.s' is a solid of type 'brep', which csgrt does not support");
     const Result skipped = run({"info", scene, "odd.g", "--skip-unsupported"});
     CHECK(skipped.status == 0);
     CHECK(contains(skipped.out, "odd.s: left out: a brep"));
@@ -110,9 +106,8 @@ TEST_CASE("thousands of warnings are counted, not all printed or kept in the pic
     for (int i = 0; i < 3000; ++i) many += "{u {l gone" + std::to_string(i) + ".s} ";
     many += "{l left.s}" + std::string(3000, '}') + "\n";
     const std::string scene = folder.write("many.asc", many);
-    const Result drawn = run({scene, "many.r", "--size", "8", "--reference", "-o", folder / "many.exr"});
-    REQUIRE(drawn.status == 0);
-    CHECK(contains(drawn.err, "gone0.s: left out: there is no such object; used by 'many.r'"));
+    const Result drawn = check_run({scene, "many.r", "--size", "8", "--reference", "-o", folder / "many.exr"}, 0,
+                                   "gone0.s: left out: there is no such object; used by 'many.r'");
     CHECK(contains(drawn.err, "csgrt: 2950 more warnings; 'csgrt info' lists all\n"));
     const std::string picture = read_file(folder / "many.exr");
     CHECK(contains(picture, "csgrt:warnings"));

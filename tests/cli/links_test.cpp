@@ -87,12 +87,8 @@ TEST_CASE("devices, pipes and open files are written into") {
     CHECK(run({"convert", scene, folder / "null.json"}).status == 0);
     CHECK(run({"convert", scene, "/dev/null"}).status == 0);
     CHECK(fs::is_character_file("/dev/null"));
-    const Result full = run({"convert", scene, "/dev/full"});
-    CHECK(full.status == 6);
-    CHECK(contains(full.err, "/dev/full: cannot write: No space left"));
-    const Result closed = run({"convert", scene, "/dev/fd/57"});
-    CHECK(closed.status == 6);
-    CHECK(contains(closed.err, "is not open"));
+    check_run({"convert", scene, "/dev/full"}, 6, "/dev/full: cannot write: No space left");
+    check_run({"convert", scene, "/dev/fd/57"}, 6, "is not open");
 #ifdef CSGRT_HAVE_IMAGE
     const auto picture = [&](std::vector<std::string> words) {
         words.insert(words.begin(), {scene, "--reference", "--size", "8"});
@@ -116,9 +112,7 @@ TEST_CASE("where there is no room the old file stays, and nothing beside it", "[
         const std::size_t files = folder.files().size();
         words.back() = folder / "link" + words.back();
         CAPTURE(words);
-        const Result result = run(words, {.file_size = 150});
-        CHECK(result.status == 6);
-        CHECK(contains(result.err, "cannot write: File too large"));
+        check_run(words, 6, "cannot write: File too large", {.file_size = 150});
         CHECK(read_file(target) == "old");
         CHECK(folder.files().size() == files);
         fs::remove(words.back());

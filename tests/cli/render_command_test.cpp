@@ -73,22 +73,14 @@ TEST_CASE("scenes that cannot be rendered say where they are wrong", "[promise:c
     const Folder folder;
     const std::string scene = folder.write("balls.asc", two_balls);
 
-    const Result object = run({scene, "all.gg", "--reference", "--stats", "-"});
-    CHECK(object.status == 3);
-    CHECK(contains(object.err, "all.gg"));
+    check_run({scene, "all.gg", "--reference", "--stats", "-"}, 3, "all.gg");
 
     const std::string broken = folder.write("broken.asc", std::string(two_balls) + "put bad.s ell V {0 0 zero}\n");
-    const Result syntax = run({broken, "--reference", "--stats", "-", "--strict"});
-    CHECK(syntax.status == 3);
-    CHECK(contains(syntax.err, "csgrt: error: " + broken + ":9:"));
+    check_run({broken, "--reference", "--stats", "-", "--strict"}, 3, "csgrt: error: " + broken + ":9:");
 
-    const Result borne = run({broken, "--reference", "--size", "16", "--stats", "-"});
-    CHECK(borne.status == 0);
-    CHECK(contains(borne.err, "csgrt: warning: " + broken + ":9:"));
+    check_run({broken, "--reference", "--size", "16", "--stats", "-"}, 0, "csgrt: warning: " + broken + ":9:");
 
-    const Result absent = run({folder / "absent.json", "--reference", "--stats", "-"});
-    CHECK(absent.status == 6);
-    CHECK(contains(absent.err, "absent.json"));
+    const Result absent = check_run({folder / "absent.json", "--reference", "--stats", "-"}, 6, "absent.json");
     CHECK(absent.out.empty());
 }
 
@@ -96,27 +88,19 @@ TEST_CASE("outputs that cannot be written are found before the scene is even rea
     NEEDS_COMMAND();
     const Folder folder;
     const std::string scene = folder.write("balls.asc", two_balls), absent = folder / "absent.asc";
-    const Result nowhere = run({absent, "--reference", "--stats", folder / "none/stats.json"});
-    CHECK(nowhere.status == 6);
-    CHECK(contains(nowhere.err, "--stats: " + (folder / "none/stats.json") + ": the folder"));
+    const Result nowhere = check_run({absent, "--reference", "--stats", folder / "none/stats.json"}, 6,
+                                     "--stats: " + (folder / "none/stats.json") + ": the folder");
     CHECK(!contains(nowhere.err, "absent.asc"));
 
-    const Result below_file = run({scene, "--reference", "--stats", scene + "/stats.json"});
-    CHECK(below_file.status == 6);
-    CHECK(contains(below_file.err, "is no folder"));
+    check_run({scene, "--reference", "--stats", scene + "/stats.json"}, 6, "is no folder");
 
-    const Result onto_folder = run({scene, "--reference", "--stats", folder / "."});
-    CHECK(onto_folder.status == 6);
-    CHECK(contains(onto_folder.err, "is a folder"));
+    check_run({scene, "--reference", "--stats", folder / "."}, 6, "is a folder");
 
-    const Result onto_scene = run({scene, "--reference", "--stats", folder / "./balls.asc"});
-    CHECK(onto_scene.status == 2);
-    CHECK(contains(onto_scene.err, "would overwrite SCENE"));
+    check_run({scene, "--reference", "--stats", folder / "./balls.asc"}, 2, "would overwrite SCENE");
     CHECK(read_file(scene) == two_balls);
 
-    const Result full = run({scene, "--reference", "--size", "8", "--stats", "-"}, {.output = "/dev/full"});
-    CHECK(full.status == 6);
-    CHECK(contains(full.err, "standard output: cannot write"));
+    check_run({scene, "--reference", "--size", "8", "--stats", "-"}, 6, "standard output: cannot write",
+              {.output = "/dev/full"});
 
     if (geteuid() != 0) {  // root may write anywhere
         fs::create_directory(folder / "locked");
@@ -167,11 +151,8 @@ TEST_CASE("too little host memory exits with 5", "[promise:command][promise:fail
     NEEDS_COMMAND();
     const Folder folder;
     const std::string scene = folder.write("balls.asc", two_balls);
-    const Result result =
-        run({scene, "--reference", "--size", "32768", "--stats", "-"}, {.address_space = rlim_t{3} << 30});
-    INFO(result.err);
-    CHECK(result.status == 5);
-    CHECK(contains(result.err, "memory"));
+    check_run({scene, "--reference", "--size", "32768", "--stats", "-"}, 5, "memory",
+              {.address_space = rlim_t{3} << 30});
 }
 #endif
 
@@ -242,27 +223,20 @@ TEST_CASE("-o - writes the same picture to standard output") {
     CHECK(run({scene, "--reference", "--size", "32", "-o-", "--format", "png"}).out == read_file(folder / "a.png"));
 
     CHECK(run({scene, "--reference", "--size", "32", "-o", "-"}, {.output = "/dev/full"}).status == 6);
-    const Result both = run({scene, "--reference", "--size", "32", "-o", "-", "--stats", "-"});
-    CHECK(both.status == 2);
-    CHECK(contains(both.err, "standard output is taken by --output"));
-    const Result format = run({scene, "--reference", "-o", folder / "b.exr", "--format", "png"});
-    CHECK(format.status == 2);
-    CHECK(contains(format.err, "--format"));
+    check_run({scene, "--reference", "--size", "32", "-o", "-", "--stats", "-"}, 2,
+              "standard output is taken by --output");
+    check_run({scene, "--reference", "-o", folder / "b.exr", "--format", "png"}, 2, "--format");
 }
 
 TEST_CASE("pictures that cannot be written are refused before the render") {
     NEEDS_COMMAND();
     const Folder folder;
     const std::string scene = folder.write("balls.asc", two_balls);
-    const Result kind = run({scene, "--reference", "-o", folder / "a.jpg"});
-    CHECK(kind.status == 2);
-    CHECK(contains(kind.err, "a.jpg"));
-    const Result twice = run({scene, "--reference", "-o", folder / "a.exr", "-o", folder / "./a.exr"});
-    CHECK(twice.status == 2);
-    CHECK(contains(twice.err, "is written by --output already"));
-    const Result nowhere = run({scene, "--reference", "-o", folder / "x/a.exr", "-o", folder / "y/a.png"});
-    CHECK(nowhere.status == 6);
-    CHECK(contains(nowhere.err, "x/a.exr"));
+    check_run({scene, "--reference", "-o", folder / "a.jpg"}, 2, "a.jpg");
+    check_run({scene, "--reference", "-o", folder / "a.exr", "-o", folder / "./a.exr"}, 2,
+              "is written by --output already");
+    const Result nowhere =
+        check_run({scene, "--reference", "-o", folder / "x/a.exr", "-o", folder / "y/a.png"}, 6, "x/a.exr");
     CHECK(contains(nowhere.err, "y/a.png"));
     CHECK(folder.files().size() == 1);
 }

@@ -23,10 +23,9 @@ TEST_CASE("shoot names the line and the limit of a ray that is out of range", "[
     const std::string scene = folder.write("two balls.asc", two_balls);
     const std::string file =
         folder.write("rays", "-100 0 0 1 0 0\n0 0 0  0 1e260 0\n  2e18 0 0 1 0 0\n0 0 0 0 0 -1e-260\n");
-    const Result result = run({"shoot", scene, "all.g", "--rays", file, "--reference"});
-    CHECK(result.status == 6);
-    CHECK(contains(result.err,
-                   ":2:8: the largest component of its direction is 1e+260, and must be from 1e-250 to 1e+250"));
+    const Result result =
+        check_run({"shoot", scene, "all.g", "--rays", file, "--reference"}, 6,
+                  ":2:8: the largest component of its direction is 1e+260, and must be from 1e-250 to 1e+250");
     CHECK(contains(result.err, ":3:3: its origin has the coordinate 2e+18, and 1e+18 mm is the farthest"));
     CHECK(contains(result.err, ":4:7: the largest component of its direction is 1e-260"));
 }
@@ -40,9 +39,8 @@ TEST_CASE("shoot takes rays behind a byte order mark, and objects by the paths t
     REQUIRE(result.status == 0);
     CHECK(contains(result.out, "\nray 0 2 0\n/all.g/left.r 90 "));
     CHECK(contains(result.out, "\nray 1 2 0\n/all.g/left.r 90 "));
-    const Result wrong = run({"shoot", scene, "all.g/lefd.r", "--rays", file, "--reference"});
-    CHECK(wrong.status == 3);
-    CHECK(contains(wrong.err, "'all.g' has no member 'lefd.r' (in the path 'all.g/lefd.r')\n  did you mean 'left.r'?"));
+    check_run({"shoot", scene, "all.g/lefd.r", "--rays", file, "--reference"}, 3,
+              "'all.g' has no member 'lefd.r' (in the path 'all.g/lefd.r')\n  did you mean 'left.r'?");
 }
 
 TEST_CASE("shoot prints the partitions along each ray", "[promise:shoot]") {
@@ -152,29 +150,22 @@ TEST_CASE("lines that are no rays are told with their place, all of them, and no
     CHECK(!fs::exists(folder / "out.txt"));
     CHECK(folder.files().size() == 2);
 
-    const Result stream = run({"shoot", scene, "--rays", "-", "--reference"}, {.input = file});
-    CHECK(stream.status == 6);
-    CHECK(contains(stream.err, "standard input:2:10: dz is missing"));
+    check_run({"shoot", scene, "--rays", "-", "--reference"}, 6, "standard input:2:10: dz is missing", {.input = file});
 }
 
 TEST_CASE("files of rays that cannot be read, and outputs that cannot be written", "[promise:shoot]") {
     NEEDS_COMMAND();
     const Folder folder;
     const std::string scene = folder.write("balls.asc", two_balls), file = folder.write("rays", rays);
-    const Result absent = run({"shoot", scene, "--rays", folder / "absent", "--reference"});
-    CHECK(absent.status == 6);
-    CHECK(contains(absent.err, "absent: cannot read"));
+    check_run({"shoot", scene, "--rays", folder / "absent", "--reference"}, 6, "absent: cannot read");
     CHECK(run({"shoot", scene, "--rays", folder / ".", "--reference"}).status == 6);
-    const Result onto_rays = run({"shoot", scene, "--rays", file, "-o", file, "--reference"});
-    CHECK(onto_rays.status == 2);
-    CHECK(contains(onto_rays.err, "would overwrite --rays"));
+    check_run({"shoot", scene, "--rays", file, "-o", file, "--reference"}, 2, "would overwrite --rays");
     CHECK(run({"shoot", scene, "--rays", file, "--reference"}, {.output = "/dev/full"}).status == 6);
 }
 
 TEST_CASE("a file of rays that is one line without end is refused while it is read") {
     NEEDS_COMMAND();
     const Folder folder;
-    const Result result = run({"shoot", folder.write("balls.asc", two_balls), "--rays", "/dev/zero", "--reference"});
-    CHECK(result.status == 6);
-    CHECK(contains(result.err, "/dev/zero: line 1 does not end: no text file"));
+    check_run({"shoot", folder.write("balls.asc", two_balls), "--rays", "/dev/zero", "--reference"}, 6,
+              "/dev/zero: line 1 does not end: no text file");
 }

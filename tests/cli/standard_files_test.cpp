@@ -157,9 +157,7 @@ TEST_CASE("a scene names files below its own folder, and below those of --allow-
 TEST_CASE("scene and rays cannot both be standard input", "[promise:shoot]") {
     NEEDS_COMMAND();
     for (const char* command : {"shoot", "verify"}) {
-        const Result result = run({command, "-", "--rays", "-", "--reference"});
-        CHECK(result.status == 2);
-        CHECK(contains(result.err, "--rays: standard input is taken by SCENE"));
+        check_run({command, "-", "--rays", "-", "--reference"}, 2, "--rays: standard input is taken by SCENE");
     }
 }
 
@@ -167,13 +165,10 @@ TEST_CASE("a closed standard input is an error, and no other file is read in its
     NEEDS_COMMAND();
     const Folder folder;
     const std::string scene = folder.write("ball.json", ball_json), rays = folder.write("rays", "0 0 -9 0 0 1\n");
-    const Result no_rays = run({"shoot", scene, "--rays", "-", "--reference"}, {.closed = {STDIN_FILENO}});
-    CHECK(no_rays.status == 6);
+    const Result no_rays = check_run({"shoot", scene, "--rays", "-", "--reference"}, 6,
+                                     "standard input: cannot read: it is closed", {.closed = {STDIN_FILENO}});
     CHECK(no_rays.out.empty());
-    CHECK(contains(no_rays.err, "standard input: cannot read: it is closed"));
-    const Result no_scene = run({"info", "-"}, {.closed = {STDIN_FILENO}});
-    CHECK(no_scene.status == 6);
-    CHECK(contains(no_scene.err, "standard input: cannot be read: it is closed"));
+    check_run({"info", "-"}, 6, "standard input: cannot be read: it is closed", {.closed = {STDIN_FILENO}});
     CHECK(run({"shoot", scene, "--rays", rays, "--reference"}, {.closed = {STDIN_FILENO}}).status == 0);  // not needed
 }
 
@@ -194,9 +189,7 @@ TEST_CASE("output to a closed standard output is not lost in silence, nor writte
     };
     for (const auto& command : commands) {
         CAPTURE(command);
-        const Result result = run(command, {.closed = {STDOUT_FILENO}});
-        CHECK(result.status == 6);
-        CHECK(contains(result.err, "standard output: cannot write: it is closed"));
+        check_run(command, 6, "standard output: cannot write: it is closed", {.closed = {STDOUT_FILENO}});
     }
     const Result all = run({"shoot", scene, "--rays", rays, "--reference", "-o", folder / "out"},
                            {.closed = {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}});

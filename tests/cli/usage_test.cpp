@@ -1,6 +1,7 @@
 // Every message about the command line itself: exit status 2, the option named, the nearest one suggested.
 #include "cli/arguments.hpp"
 #include "cli/command.hpp"
+#include "thrown.hpp"
 
 using namespace command_test;
 
@@ -13,13 +14,7 @@ struct Mistake {
 
 /// What is wrong with a command line; empty if nothing is.
 std::string refusal(const std::vector<std::string>& words) {
-    try {
-        csgrt::cli::parse_arguments(words);
-        return {};
-    } catch (const csgrt::Error& error) {
-        CHECK(error.status() == csgrt::Status::usage);
-        return error.what();
-    }
+    return csgrt::test::failure(csgrt::Status::usage, [&] { csgrt::cli::parse_arguments(words); });
 }
 
 }  // namespace

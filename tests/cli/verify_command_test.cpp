@@ -139,9 +139,7 @@ TEST_CASE("rays and results that cannot be read or written") {
     NEEDS_COMMAND();
     const Folder folder;
     const std::string scene = folder.write("balls.asc", two_balls), rays = folder.write("rays", "0 0 0 1 0\n");
-    const Result wrong = run({"verify", scene, "--reference", "--rays", rays, "--json", folder / "out"});
-    CHECK(wrong.status == 6);
-    CHECK(contains(wrong.err, ":1:10: dz is missing"));
+    check_run({"verify", scene, "--reference", "--rays", rays, "--json", folder / "out"}, 6, ":1:10: dz is missing");
     CHECK(run({"verify", scene, "--reference", "--rays", folder / "absent"}).status == 6);
     CHECK(run({"verify", scene, "--reference", "--json", folder / "no" + "/out"}).status == 6);
     CHECK(run({"verify", scene, "--reference", "--json", scene}).status == 2);

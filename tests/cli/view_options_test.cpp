@@ -46,15 +46,10 @@ TEST_CASE("options that say a view twice are refused", "[promise:views]") {
     for (const auto& [options, says] : cases) {
         std::vector<std::string> words = {scene, "all.g", "--reference", "--size", "8", "--stats", "-"};
         words.insert(words.end(), options.begin(), options.end());
-        const Result result = run(words);
-        INFO(result.err);
-        CHECK(result.status == 2);
-        CHECK(contains(result.err, says));
+        check_run(words, 2, says);
     }
-    const Result broken =
-        run({scene, "all.g", "--reference", "--stats", "-", "--view", folder.write("v", "viewsize x;")});
-    CHECK(broken.status == 3);
-    CHECK(contains(broken.err, "'x' is not a finite number"));
+    check_run({scene, "all.g", "--reference", "--stats", "-", "--view", folder.write("v", "viewsize x;")}, 3,
+              "'x' is not a finite number");
 }
 
 #ifdef CSGRT_HAVE_IMAGE

@@ -168,10 +168,8 @@ TEST_CASE("a number too small is 0 and one too large an error, in every reader i
             CHECK(contains(result.err, said));
             CHECK(contains(result.err, " is too large for a double"));
         }
-        const Result ray =
-            run({"shoot", scene, "--rays", folder.write("rays", large + " 0 -9 0 0 1\n"), "--reference"});
-        CHECK(ray.status == 6);
-        CHECK(contains(ray.err, "rays:1:1: ox: " + said));
+        check_run({"shoot", scene, "--rays", folder.write("rays", large + " 0 -9 0 0 1\n"), "--reference"}, 6,
+                  "rays:1:1: ox: " + said);
     }
     const Result zero = run({"shoot", scene, "--rays", folder.write("rays", "0 0 -9 0 0 1e-400\n"), "--reference"});
     CHECK(contains(zero.err, "the direction is 0 0 0"));

@@ -9,6 +9,8 @@
 
 #include <csgrt/scene.hpp>
 
+#include "thrown.hpp"
+
 namespace csgrt::test {
 
 inline TreeNode leg(const std::string& object, const Matrix& matrix = identity) {
@@ -90,14 +92,8 @@ inline Matrix askew(double angle, const Vec3& offset = {}) {
 /// What a call throws as Error; empty if it does not.
 template <class Call>
 std::string error_of(const Call& call) {
-    try {
-        call();
-    } catch (const Error& error) {
-        return error.what();
-    }
-    return {};
+    return thrown_by(call).text;
 }
-inline bool says(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 inline bool near(double a, double b, double slack = 1e-12) { return std::abs(a - b) <= slack; }
 
 }  // namespace csgrt::test

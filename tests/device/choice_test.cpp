@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "device/choice.hpp"
+#include "thrown.hpp"
 
 using namespace csgrt;
 
@@ -21,13 +22,9 @@ const std::vector<DeviceInfo> several = {made_up("Slow CPU", "cpu", true), made_
                                          made_up("Real GPU", "gpu", true), made_up("Other GPU", "gpu", true)};
 
 std::string refusal(const std::vector<DeviceInfo>& devices, const std::string& choice) {
-    try {
-        const std::size_t chosen = choose_device(devices, choice);
-        return "chose " + std::to_string(chosen);
-    } catch (const Error& error) {
-        CHECK(error.status() == Status::no_device);
-        return error.what();
-    }
+    std::string chose;
+    const auto choose = [&] { chose = "chose " + std::to_string(choose_device(devices, choice)); };
+    return test::failure(Status::no_device, choose) + chose;
 }
 
 }  // namespace
@@ -134,14 +131,8 @@ TEST_CASE("several devices are chosen by several choices, or as all GPUs", "[dev
     CHECK(choose_devices(several, "3,0") == Numbers{3, 0});
     CHECK(choose_devices(several, "cpu,gpu,other") == Numbers{0, 2, 3});
     CHECK(choose_devices(several, "gpus") == Numbers{2, 3});
-    const auto refusal_of = [](const std::vector<DeviceInfo>& devices, const std::string& choice) -> std::string {
-        try {
-            choose_devices(devices, choice);
-            return "none";
-        } catch (const Error& error) {
-            CHECK(error.status() == Status::no_device);
-            return error.what();
-        }
+    const auto refusal_of = [](const std::vector<DeviceInfo>& devices, const std::string& choice) {
+        return test::failure(Status::no_device, [&] { choose_devices(devices, choice); });
     };
     CHECK(refusal_of(several, "gpu,2").starts_with("\"gpu,2\" means device 2 twice\n"));
     CHECK(refusal_of(several, "0,7").starts_with("no device has the number 7\n"));

@@ -7,22 +7,11 @@
 #include "device/copy_feed.hpp"
 #include "device/program.hpp"
 #include "device/queued.hpp"
+#include "thrown.hpp"
 
 using namespace csgrt;
 
 namespace {
-
-/// The text of the Error that `act` throws, after a look at its status.
-template <class Act>
-std::string failure(Status status, Act act) {
-    try {
-        act();
-    } catch (const Error& error) {
-        CHECK(error.status() == status);
-        return error.what();
-    }
-    return "nothing was thrown";
-}
 
 bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
@@ -205,7 +194,7 @@ TEST_CASE("memory is counted by name and given back", "[device]") {
 TEST_CASE("what does not fit the budget is refused, with who holds what", "[device]") {
     Device device(test::compiling_device(), 1 << 20);
     Buffer rays(device, "rays", 700 * 1024);
-    const std::string text = failure(Status::out_of_memory, [&] { Buffer(device, "segments", 400 * 1024); });
+    const std::string text = test::failure(Status::out_of_memory, [&] { Buffer(device, "segments", 400 * 1024); });
     CHECK(has(text, "\"segments\" needs 400.0 KiB"));
     CHECK(has(text, "of 1.0 MiB only 324.0 KiB are free"));
     CHECK(has(text, "in use: rays 700.0 KiB"));
@@ -217,7 +206,7 @@ TEST_CASE("what does not fit the budget is refused, with who holds what", "[devi
 TEST_CASE("one buffer larger than the device allows is refused", "[device]") {
     Device device(test::compiling_device(), std::uint64_t{1} << 62);
     const std::string text =
-        failure(Status::out_of_memory, [&] { Buffer(device, "partitions", device.info().max_allocation + 1); });
+        test::failure(Status::out_of_memory, [&] { Buffer(device, "partitions", device.info().max_allocation + 1); });
     CHECK(has(text, "\"partitions\" needs "));
     CHECK(has(text, "one buffer may take "));
     CHECK(device.allocated() == 0);
@@ -234,7 +223,7 @@ TEST_CASE("a program that does not compile shows the compiler's words and the ke
     Device device(test::compiling_device());
     const std::string source = assemble_program({"shared/base.h"}) +
                                "#line 7 \"kernels/broken.cl\"\n__kernel void f() { not_declared = 1; }\n";
-    const std::string text = failure(Status::device_fault, [&] { Program(device, source, {"SOME=1"}); });
+    const std::string text = test::failure(Status::device_fault, [&] { Program(device, source, {"SOME=1"}); });
     INFO(text);
     CHECK(has(text, "do not compile for " + device.info().name));
     CHECK(has(text, "-DSOME=1"));
@@ -254,33 +243,33 @@ TEST_CASE("a define reaches the kernel, and so does the precision", "[device]") 
 TEST_CASE("a kernel that is not there, or is called wrongly, is named", "[device]") {
     Device device(test::compiling_device());
     Program program(device, scale_source);
-    const std::string missing = failure(Status::device_fault, [&] { program.kernel("weave"); });
+    const std::string missing = test::failure(Status::device_fault, [&] { program.kernel("weave"); });
     CHECK(has(missing, "clCreateKernel (weave)"));
     CHECK(has(missing, "CL_INVALID_KERNEL_NAME (-46)"));
 
     Kernel change = program.kernel("change");
     Buffer buffer(device, "buffer", 64);
     CHECK_THROWS_WITH(change.launch(1, 1, buffer), "kernel change takes 4 arguments, not 1");
-    const std::string size = failure(Status::device_fault, [&] {
+    const std::string size = test::failure(Status::device_fault, [&] {
         change.launch(1, 1, buffer, buffer, Change{1, 1}, cl_ulong{1});
     });
     CHECK(has(size, "clSetKernelArg (change, argument 3)"));
     CHECK(has(size, "CL_INVALID_ARG_SIZE"));
-    const std::string group = failure(Status::device_fault, [&] {
+    const std::string group = test::failure(Status::device_fault, [&] {
         change.launch(1, std::size_t{1} << 30, buffer, buffer, Change{1, 1}, cl_uint{0});
     });
     CHECK(has(group, "clEnqueueNDRangeKernel (change, 1 items in groups of 1073741824)"));
     CHECK(has(group, "CL_INVALID_WORK_GROUP_SIZE"));
 }
 
-TEST_CASE("an error of OpenCL has its name, and memory errors their status", "[device][promise:failures]") {
-    CHECK(failure(Status::device_fault, [] { check(CL_OUT_OF_RESOURCES, "clFinish"); }) ==
+TEST_CASE("an error of OpenCL has its name, and memory errors their status", "[device]") {
+    CHECK(test::failure(Status::device_fault, [] { check(CL_OUT_OF_RESOURCES, "clFinish"); }) ==
           "clFinish failed: CL_OUT_OF_RESOURCES (-5)");
-    CHECK(failure(Status::out_of_memory, [] { check(CL_MEM_OBJECT_ALLOCATION_FAILURE, "f"); }) ==
+    CHECK(test::failure(Status::out_of_memory, [] { check(CL_MEM_OBJECT_ALLOCATION_FAILURE, "f"); }) ==
           "f failed: CL_MEM_OBJECT_ALLOCATION_FAILURE (-4)");
-    CHECK(failure(Status::out_of_memory, [] { check(CL_OUT_OF_HOST_MEMORY, "f"); }) ==
+    CHECK(test::failure(Status::out_of_memory, [] { check(CL_OUT_OF_HOST_MEMORY, "f"); }) ==
           "f failed: CL_OUT_OF_HOST_MEMORY (-6)");
-    CHECK(failure(Status::device_fault, [] { check(-9999, "f"); }) == "f failed: an unknown error (-9999)");
+    CHECK(test::failure(Status::device_fault, [] { check(-9999, "f"); }) == "f failed: an unknown error (-9999)");
     CHECK_NOTHROW(check(CL_SUCCESS, "f"));
     CHECK(std::string(opencl_error_name(-1001)) == "CL_PLATFORM_NOT_FOUND_KHR");
 }

@@ -17,6 +17,7 @@
 
 #include "catch.hpp"
 #include "device/opencl/opencl_table.hpp"
+#include "thrown.hpp"
 
 namespace csgrt::test {
 
@@ -311,14 +312,6 @@ private:
 };
 
 /// What a call says that fails as a device's fault; empty: it does not fail.
-inline std::string failure(const std::function<void()>& call) {
-    try {
-        call();
-    } catch (const Error& error) {
-        CHECK(error.status() == Status::device_fault);
-        return error.what();
-    }
-    return {};
-}
+inline std::string failure(const std::function<void()>& call) { return failure(Status::device_fault, call); }
 
 }  // namespace csgrt::test

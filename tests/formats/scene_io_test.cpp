@@ -10,6 +10,7 @@
 #include "folder.hpp"
 #include "formats/same_scene.hpp"
 #include "scene/make_scene.hpp"
+#include "thrown.hpp"
 
 using namespace csgrt;
 using test::Folder;
@@ -19,13 +20,9 @@ namespace {
 namespace fs = std::filesystem;
 
 Status status_of(const std::function<void()>& action) {
-    try {
-        action();
-    } catch (const Error& error) {
-        CHECK_FALSE(std::string(error.what()).empty());
-        return error.status();
-    }
-    return Status::ok;
+    const test::Thrown thrown = test::thrown_by(action);
+    CHECK(thrown.text.empty() == (thrown.status == Status::ok));
+    return thrown.status;
 }
 
 std::string content(const std::string& path) {

@@ -4,6 +4,7 @@
 
 #include "catch.hpp"
 #include "formats/text_source.hpp"
+#include "thrown.hpp"
 
 using namespace csgrt;
 
@@ -52,17 +53,13 @@ TEST_CASE("text source: findings leave in the order of the file, all at once", "
     findings.add(8, "c", "third", "do this");
     findings.add(Fault{0, "first", {}}, "a");
     CHECK_FALSE(findings.empty());
-    try {
-        findings.throw_if_any();
-        FAIL("nothing was thrown");
-    } catch (const Error& error) {
-        CHECK(error.status() == Status::scene);
-        REQUIRE(error.diagnostics().size() == 2);
-        CHECK(error.diagnostics()[0].message == "first");
-        CHECK(error.diagnostics()[1].place.pointer == "c");
-        CHECK(error.diagnostics()[1].suggestion == "do this");
-        CHECK(error.diagnostics()[1].excerpt == "three\n^");
-    }
+    const test::Thrown thrown = test::thrown_by([&] { findings.throw_if_any(); });
+    CHECK(thrown.status == Status::scene);
+    REQUIRE(thrown.findings.size() == 2);
+    CHECK(thrown.findings[0].message == "first");
+    CHECK(thrown.findings[1].place.pointer == "c");
+    CHECK(thrown.findings[1].suggestion == "do this");
+    CHECK(thrown.findings[1].excerpt == "three\n^");
 }
 
 TEST_CASE("text source: files", "[text]") {
@@ -74,13 +71,9 @@ TEST_CASE("text source: files", "[text]") {
     std::filesystem::remove(path);
 
     for (const std::string& bad : {path.string(), folder.string()}) {
-        try {
-            TextSource::read(bad);
-            FAIL("nothing was thrown");
-        } catch (const Error& error) {
-            CHECK(error.status() == Status::file);
-            REQUIRE(error.diagnostics().size() == 1);
-            CHECK(error.diagnostics()[0].place.file == bad);
-        }
+        const test::Thrown thrown = test::thrown_by([&] { TextSource::read(bad); });
+        CHECK(thrown.status == Status::file);
+        REQUIRE(thrown.findings.size() == 1);
+        CHECK(thrown.findings[0].place.file == bad);
     }
 }

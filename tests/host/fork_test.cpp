@@ -8,6 +8,7 @@
 #include "device/discovery.hpp"
 #include "host/process.hpp"
 #include "integration/same_answers.hpp"
+#include "thrown.hpp"
 
 using namespace csgrt;
 using namespace csgrt::test;
@@ -18,13 +19,7 @@ constexpr const char* pocl = "Portable Computing Language";
 
 template <class Call>
 void require_refusal(const Call& call) {
-    std::string why = "nothing was thrown";
-    try {
-        call();
-    } catch (const Error& error) {
-        why = error.what();
-    }
-    REQUIRE_THAT(why, ContainsSubstring("before this process was forked"));
+    REQUIRE_THAT(test::thrown_by(call).text, ContainsSubstring("before this process was forked"));
 }
 
 }  // namespace

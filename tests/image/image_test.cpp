@@ -19,6 +19,7 @@
 #include "folder.hpp"
 #include "image/encode.hpp"
 #include "image/whole.hpp"
+#include "thrown.hpp"
 
 using namespace csgrt;
 using test::Folder;
@@ -60,17 +61,6 @@ Image gray(std::vector<float> values) {
 std::string content(const std::string& path) {
     std::ifstream file(path, std::ios::binary);
     return {std::istreambuf_iterator<char>(file), {}};
-}
-
-template <class Act>
-std::string failure(Status status, Act act) {
-    try {
-        act();
-    } catch (const Error& error) {
-        CHECK(error.status() == status);
-        return error.what();
-    }
-    return "nothing was thrown";
 }
 
 }  // namespace
@@ -207,8 +197,9 @@ TEST_CASE("who follows the writing of an EXR gets the same bytes, and may end it
     };
     CHECK(encode(image, "exr", "test", grows) == encode(image, "exr", "test"));
     CHECK(calls > 1);
-    CHECK(failure(Status::interrupted,
-                  [&] { write_image(image, file, "exr", [](double part) { return part < 0.5; }); }) == "interrupted");
+    CHECK(test::failure(Status::interrupted, [&] {
+              write_image(image, file, "exr", [](double part) { return part < 0.5; });
+          }) == "interrupted");
     CHECK(content(file) == "old");
     CHECK(folder.files().size() == 1);
 }
@@ -228,7 +219,7 @@ TEST_CASE("a file is replaced whole, and left alone when writing fails", "[image
 
     // A folder in the file's place: the temporary file is written, the rename fails, the temporary file goes.
     fs::create_directory(folder / "c.png");
-    const std::string text = failure(Status::file, [&] { write_image(gray({1}), folder / "c.png"); });
+    const std::string text = test::failure(Status::file, [&] { write_image(gray({1}), folder / "c.png"); });
     CHECK(text == (folder / "c.png") + ": cannot replace: Is a directory");
     CHECK(folder.files().size() == 3);
 }
@@ -236,7 +227,7 @@ TEST_CASE("a file is replaced whole, and left alone when writing fails", "[image
 TEST_CASE("a file that cannot be written is named, with the reason", "[image]") {
     const Folder folder;
     const std::string path = folder / "none/a.exr";
-    CHECK(failure(Status::file, [&] { write_image(gray({1}), path); }) ==
+    CHECK(test::failure(Status::file, [&] { write_image(gray({1}), path); }) ==
           path + ": cannot create: No such file or directory");
 }
 
@@ -263,12 +254,14 @@ TEST_CASE("channels: in one piece, copied, moved, compared, and of one size", "[
     const Channels large(many, std::vector<float>{3, 4});
     CHECK(std::ranges::count(large[0], 3.0f) == many);
     CHECK(std::ranges::count(large[1], 4.0f) == many);
-    CHECK(failure(Status::usage, [] { Channels({{1, 2}, {1, 2}, {1}}); }) == "channel 2 has 1 values, channel 0 has 2");
+    CHECK(test::failure(Status::usage, [] {
+              Channels({{1, 2}, {1, 2}, {1}});
+          }) == "channel 2 has 1 values, channel 0 has 2");
 }
 
 TEST_CASE("a picture that is not well formed is refused", "[image]") {
     const auto refusal = [](Image image, const char* format = "exr") {
-        return failure(Status::usage, [&] { encode(image, format, "a"); });
+        return test::failure(Status::usage, [&] { encode(image, format, "a"); });
     };
     Image image = gray({1, 2});
     image.width = 0;
@@ -286,25 +279,27 @@ TEST_CASE("a picture that is not well formed is refused", "[image]") {
     image.names[1] = "Z";
     CHECK(refusal(image, "png") == "a: the picture has no channel G, which a PNG needs");
     CHECK(refusal(gray({1}), "jpg") == "a: pictures are written as exr or png, not as \"jpg\"");
-    CHECK(failure(Status::usage, [] { write_image(gray({1}), "picture"); }) ==
+    CHECK(test::failure(Status::usage, [] { write_image(gray({1}), "picture"); }) ==
           "picture: pictures are written as exr or png, not as \"\"");
 }
 
 TEST_CASE("a file that is no EXR is refused by name", "[image]") {
     const Folder folder;
-    CHECK(failure(Status::file, [&] {
+    CHECK(test::failure(Status::file, [&] {
               read_image(folder / "missing.exr");
           }).starts_with((folder / "missing.exr") + ": cannot read: "));
     std::ofstream(folder / "text.exr") << "not a picture";
-    CHECK(failure(Status::file, [&] {
+    CHECK(test::failure(Status::file, [&] {
               read_image(folder / "text.exr");
           }).starts_with((folder / "text.exr") + ": cannot read: "));
     write_image(gray({1}), folder / "a.png");
-    CHECK(failure(Status::file, [&] { read_image(folder / "a.png"); }) == (folder / "a.png") + ": is no EXR file");
+    CHECK(test::failure(Status::file, [&] { read_image(folder / "a.png"); }) ==
+          (folder / "a.png") + ": is no EXR file");
     // Cut off in the middle.
     write_image(full_picture(), folder / "cut.exr");
     fs::resize_file(folder / "cut.exr", fs::file_size(folder / "cut.exr") - 40);
-    CHECK(failure(Status::file, [&] { read_image(folder / "cut.exr"); }).starts_with((folder / "cut.exr") + ": "));
+    CHECK(
+        test::failure(Status::file, [&] { read_image(folder / "cut.exr"); }).starts_with((folder / "cut.exr") + ": "));
 }
 
 TEST_CASE("\"-\" is standard output", "[image]") {

@@ -9,6 +9,7 @@
 #include "integration/same_answers.hpp"
 #include "sanitized.hpp"
 #include "integration/scenes.hpp"
+#include "thrown.hpp"
 
 using namespace csgrt;
 using test::on_device;
@@ -44,13 +45,10 @@ TEST_CASE("a ray whose segments do not fit the memory budget is an error, not a 
     if (files.empty()) return;
     Settings settings = on_device();
     settings.max_memory = 20'000;
-    try {
-        Renderer renderer(load_scene(files.front()), {}, settings);
-        renderer.render({.width = 64, .height = 64, .camera = {}});
+    test::failure(Status::out_of_memory, [&] {
+        Renderer(load_scene(files.front()), {}, settings).render({.width = 64, .height = 64, .camera = {}});
         SUCCEED("it fits");
-    } catch (const Error& error) {
-        CHECK(error.status() == Status::out_of_memory);
-    }
+    });
 }
 
 // Of whose leaves most are solids that are taken away: they start no term, and first hits looked for them among those

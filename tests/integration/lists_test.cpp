@@ -11,6 +11,7 @@
 #include "integration/same_answers.hpp"
 #include "integration/scenes.hpp"
 #include "sanitized.hpp"
+#include "thrown.hpp"
 
 using namespace csgrt;
 
@@ -83,13 +84,7 @@ TEST_CASE("a list that cannot be answered is refused with the index of its first
     Renderer renderer(balls(), {}, test::on_device());
     Partitions answer;
     const auto refusal = [&](const std::vector<Ray>& rays, const RayRanges& ranges) {
-        try {
-            renderer.partitions(rays, answer, {}, ranges);
-        } catch (const Error& error) {
-            CHECK(error.status() == Status::usage);
-            return std::string(error.what());
-        }
-        return std::string();
+        return test::failure(Status::usage, [&] { renderer.partitions(rays, answer, {}, ranges); });
     };
     std::vector<Ray> rays(100'000, along_x().front());
     rays[70'000].direction = rays[90'000].direction = {};

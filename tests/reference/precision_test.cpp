@@ -15,6 +15,7 @@
 #include "oracle/solids/all.hpp"
 #include "integration/scenes.hpp"
 #include "reference/reference_kernels.hpp"
+#include "thrown.hpp"
 
 using namespace csgrt;
 using oracle::quad;
@@ -144,14 +145,7 @@ TEST_CASE("113 bits give the true ends to the last bit of a double", "[geometry]
 
 TEST_CASE("a precision where it is not is refused", "[pipeline][promise:rounding]") {
     const auto refusal = [](const Settings& wanted) {
-        try {
-            Scene scene;
-            Renderer(scene, {}, wanted);
-        } catch (const Error& error) {
-            CHECK(error.status() == Status::usage);
-            return std::string(error.what());
-        }
-        return std::string();
+        return test::failure(Status::usage, [&] { Renderer(Scene(), {}, wanted); });
     };
     CHECK(refusal(in_quad).find("113-bit precision is on the reference only") != std::string::npos);
     CHECK(refusal(with_methods({.contraction = true}, {.reference = true})).find("contraction is on a device only") !=

@@ -12,6 +12,7 @@
 #include "integration/same_answers.hpp"
 #include "integration/scenes.hpp"
 #include "sanitized.hpp"
+#include "thrown.hpp"
 
 using namespace csgrt;
 
@@ -45,14 +46,7 @@ const RegionInfo& at(const Model& model, const std::string& path) {
     return model.regions().front();
 }
 
-std::string refusal(const std::function<void()>& work) {
-    try {
-        work();
-    } catch (const Error& error) {
-        return error.what();
-    }
-    return "nothing was thrown";
-}
+std::string refusal(const std::function<void()>& work) { return test::thrown_by(work).text; }
 
 View small_view(const Scene& scene) {
     View view{.width = 40, .height = 30, .camera = scene.camera};

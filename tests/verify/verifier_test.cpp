@@ -6,6 +6,7 @@
 #include "base/laboratory.hpp"
 #include "catch.hpp"
 #include "compile/model.hpp"
+#include "thrown.hpp"
 
 using namespace csgrt;
 
@@ -117,12 +118,7 @@ TEST_CASE("what cannot be judged is refused, and progress can stop it", "[promis
         return fraction < 0.5;
     };
     Verifier verifier(scene, {}, settings);
-    try {
-        verifier.shoot(verifier.sample(scene.camera, 1000));
-        FAIL("was not stopped");
-    } catch (const Error& error) {
-        CHECK(error.status() == Status::interrupted);
-    }
+    CHECK(test::thrown_by([&] { verifier.shoot(verifier.sample(scene.camera, 1000)); }).status == Status::interrupted);
     CHECK(last >= 0.5);
     CHECK(!backwards);
 }

@@ -14,6 +14,7 @@
 #include "cli/command.hpp"
 #include "folder.hpp"
 #include "page_client.hpp"
+#include "thrown.hpp"
 
 using namespace csgrt;
 using namespace csgrt::test;
@@ -394,11 +395,6 @@ TEST_CASE("view: nobody else gets in", "[view][promise:page]") {
     CHECK(get(page.root()).body.find("<html") != std::string::npos);
     CHECK(get(page.root()).headers["content-security-policy"].starts_with("default-src 'none'"));
 
-    try {
-        Viewer second(operators(), {}, {.port = page.port()});
-        FAIL("two Viewers have one port");
-    } catch (const csgrt::Error& error) {
-        CHECK(error.status() == Status::file);
-        CHECK_THAT(error.what(), Catch::Matchers::Contains("another program"));
-    }
+    const auto second = [&] { Viewer(operators(), {}, {.port = page.port()}); };  // two Viewers have one port
+    CHECK_THAT(csgrt::test::failure(Status::file, second), ContainsSubstring("another program"));
 }

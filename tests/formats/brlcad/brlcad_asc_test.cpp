@@ -1,6 +1,7 @@
 // Which form a text has, files that are none, and BRL-CAD's own models.
 #include "formats/brlcad/brlcad_asc_text.hpp"
 #include "formats/brlcad/brlcad_models.hpp"
+#include "thrown.hpp"
 
 using namespace csgrt;
 using namespace csgrt::asc_test;
@@ -19,13 +20,8 @@ TEST_CASE("asc: what is no text database is refused", "[asc][broken]") {
     check_broken({"binary", std::string("title x\nv\1\0\0", 12), 2, 3, "", "no text"});
     check_broken({"another language", "{\"csgrt\": 1}\n", 1, 2, "", "no command"});
 
-    try {
-        read_brlcad_asc("no such folder/model.asc");
-        FAIL("nothing was thrown");
-    } catch (const Error& error) {
-        CHECK(error.status() == Status::file);
-        CHECK(std::string(error.what()).find("no such folder/model.asc") != std::string::npos);
-    }
+    CHECK(test::says(test::failure(Status::file, [] { read_brlcad_asc("no such folder/model.asc"); }),
+                     "no such folder/model.asc"));
 }
 
 TEST_CASE("asc: any end of a file, and any byte in it, gives a scene or findings", "[asc][broken]") {

@@ -9,19 +9,22 @@
 #include "formats/brlcad/asc.hpp"
 #include "formats/same_scene.hpp"
 #include "formats/text_source.hpp"
+#include "thrown.hpp"
 
 namespace csgrt::asc_test {
 
 inline Scene parse(const std::string& text) { return parse_brlcad_asc(TextSource("model.asc", text)); }
 
+/// What `call` finds wrong with a scene.
+template <class Call>
+std::vector<Diagnostic> findings_by(const Call& call) {
+    const test::Thrown thrown = test::thrown_by(call);
+    REQUIRE((thrown.status == Status::scene || thrown.status == Status::ok));
+    return thrown.findings;
+}
+
 inline std::vector<Diagnostic> findings_in(const std::string& text) {
-    try {
-        parse(text);
-    } catch (const Error& error) {
-        REQUIRE(error.status() == Status::scene);
-        return error.diagnostics();
-    }
-    return {};
+    return findings_by([&] { parse(text); });
 }
 
 /// A database that is wrong in one place.

@@ -23,7 +23,6 @@ std::string complaint(const std::string& solid) {
     const auto found = findings_of(R"({"csgrt": 1, "solids": {"s": )" + solid + "}}");
     return found.empty() ? "" : found[0].message + "; " + found[0].suggestion;
 }
-bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 }  // namespace
 
@@ -86,12 +85,13 @@ TEST_CASE("json solids: a mesh's thickness is one number, or one a face", "[prom
         read<Bot>(R"({"type": "bot", "mode": "plate_nocos", "thickness": [1, 2], "append": [0, 1], )" + mesh + "}");
     CHECK(plates.thickness == std::vector<double>{10, 20});
     CHECK(plates.append == std::vector<std::uint8_t>{0, 1});
-    CHECK(contains(complaint(R"({"type": "bot", "mode": "plates", )" + mesh + "}"), "did you mean 'plate'?"));
-    CHECK(contains(complaint(R"({"type": "bot", "vertices": [[0, 0, true]], "faces": []})"),
-                   "expected a number, found true"));
-    CHECK(contains(complaint(R"({"type": "bot", "vertices": [], "faces": [[0, 1, -1]]})"),
-                   "must be from 0 to 4294967295"));
-    CHECK(contains(complaint(R"({"type": "bot", "vertices": [], "faces": [[0, 1, 0.5]]})"), "expected a whole number"));
+    CHECK(test::says(complaint(R"({"type": "bot", "mode": "plates", )" + mesh + "}"), "did you mean 'plate'?"));
+    CHECK(test::says(complaint(R"({"type": "bot", "vertices": [[0, 0, true]], "faces": []})"),
+                     "expected a number, found true"));
+    CHECK(test::says(complaint(R"({"type": "bot", "vertices": [], "faces": [[0, 1, -1]]})"),
+                     "must be from 0 to 4294967295"));
+    CHECK(
+        test::says(complaint(R"({"type": "bot", "vertices": [], "faces": [[0, 1, 0.5]]})"), "expected a whole number"));
 }
 
 TEST_CASE("json solids: a face is a loop, or several") {
@@ -113,16 +113,16 @@ TEST_CASE("json solids: cells are marks or numbers, in rows or not", "[promise:s
     CHECK(ebm("[]").cells.empty());
     CHECK(ebm("[]").height == 40);
     const std::string head = R"({"type": "ebm", "width": 1, "depth": 1, "height": 1, "cells": )";
-    CHECK(contains(complaint(head + R"("256"})"), "character 1 begins no cell: expected numbers from 0 to 255"));
-    CHECK(contains(complaint(head + R"(["1", "12 -1"]})"), "character 4 begins no cell"));
-    CHECK(contains(complaint(head + R"("99999999999999999999999"})"), "character 1 begins no cell"));
-    CHECK(contains(complaint(head + R"([1]})"), "expected a string, found a number"));
-    CHECK(contains(complaint(head + "7}"), "expected an array, found a number"));
+    CHECK(test::says(complaint(head + R"("256"})"), "character 1 begins no cell: expected numbers from 0 to 255"));
+    CHECK(test::says(complaint(head + R"(["1", "12 -1"]})"), "character 4 begins no cell"));
+    CHECK(test::says(complaint(head + R"("99999999999999999999999"})"), "character 1 begins no cell"));
+    CHECK(test::says(complaint(head + R"([1]})"), "expected a string, found a number"));
+    CHECK(test::says(complaint(head + "7}"), "expected an array, found a number"));
     const Dsp dsp =
         read<Dsp>(R"({"type": "dsp", "width": 2, "depth": 2, "heights": ["0 65535", "1 2"], "cut": "upper_left"})");
     CHECK(dsp.heights == std::vector<std::uint16_t>{0, 65535, 1, 2});
     CHECK(dsp.cut == Dsp::Cut::upper_left);
-    CHECK(contains(complaint(R"({"type": "dsp", "width": 2, "depth": 2, "heights": "#"})"), "from 0 to 65535"));
+    CHECK(test::says(complaint(R"({"type": "dsp", "width": 2, "depth": 2, "heights": "#"})"), "from 0 to 65535"));
 }
 
 TEST_CASE("json solids: matrices of cells", "[promise:scenes]") {
@@ -161,10 +161,10 @@ TEST_CASE("json solids: sketches", "[promise:scenes]") {
     CHECK(same_shape(extrude, Extrude{{10, 0, 0}, {0, 0, 20}, {1, 0, 0}, {0, 2, 0}, sketch}));
     const std::string head =
         R"({"type": "extrude", "base": [0, 0, 0], "height": [0, 0, 1], "sketch": {"vertices": [], "curves": [)";
-    CHECK(contains(complaint(head + R"({"line": [0, 1, 2]}]}})"), "expected 2 indices of vertices, found 3"));
-    CHECK(contains(complaint(head + R"({"lines": [0, 1]}]}})"), "none of the keys that name one"));
-    CHECK(contains(complaint(head + R"([0, 1]]}})"), "expected a curve, found an array"));
-    CHECK(contains(complaint(head + R"({"line": [0, 1], "arc": [1, 2]}]}})"), "unknown key 'arc'"));
+    CHECK(test::says(complaint(head + R"({"line": [0, 1, 2]}]}})"), "expected 2 indices of vertices, found 3"));
+    CHECK(test::says(complaint(head + R"({"lines": [0, 1]}]}})"), "none of the keys that name one"));
+    CHECK(test::says(complaint(head + R"([0, 1]]}})"), "expected a curve, found an array"));
+    CHECK(test::says(complaint(head + R"({"line": [0, 1], "arc": [1, 2]}]}})"), "unknown key 'arc'"));
 }
 
 TEST_CASE("json solids: angles are degrees where those give the bits") {
@@ -173,12 +173,12 @@ TEST_CASE("json solids: angles are degrees where those give the bits") {
     CHECK(read<Revolve>(head + sketch).angle == 2 * std::numbers::pi);
     CHECK(read<Revolve>(head + R"("angle": 90, )" + sketch).angle == std::numbers::pi / 2);
     CHECK(read<Revolve>(head + R"("radians": 1.5, )" + sketch).angle == 1.5);
-    CHECK(contains(complaint(head + R"("radians": 1.5, "angle": 90, )" + sketch), "not both"));
+    CHECK(test::says(complaint(head + R"("radians": 1.5, "angle": 90, )" + sketch), "not both"));
     const auto text = [](double angle) {
         Revolve revolve;
         revolve.angle = angle;
         return json_scene_text(make_scene({solid("s", revolve)}));
     };
-    CHECK(contains(text(2 * std::numbers::pi), "\"angle\": 360"));
-    CHECK(contains(text(2.2689280275926285), "\"angle\": 130"));
+    CHECK(test::says(text(2 * std::numbers::pi), "\"angle\": 360"));
+    CHECK(test::says(text(2.2689280275926285), "\"angle\": 130"));
 }

@@ -7,6 +7,7 @@
 
 #include "formats/json/reader.hpp"
 #include "formats/text_source.hpp"
+#include "thrown.hpp"
 
 namespace csgrt {
 
@@ -14,12 +15,7 @@ inline Scene scene_of(const std::string& text) { return parse_json_scene(TextSou
 
 /// The findings that a text gives; none if it is sound.
 inline std::vector<Diagnostic> findings_of(const std::string& text) {
-    try {
-        scene_of(text);
-    } catch (const Error& error) {
-        return error.diagnostics();
-    }
-    return {};
+    return test::thrown_by([&] { scene_of(text); }).findings;
 }
 
 /// The shape of one solid that is written in millimetres, or in another unit.

@@ -16,6 +16,7 @@
 #include "formats/brlcad/brlcad_models.hpp"
 #include "formats/text_source.hpp"
 #include "bench/stress/build.hpp"
+#include "thrown.hpp"
 
 using namespace csgrt;
 
@@ -158,13 +159,9 @@ std::vector<RayPartitions> shoot(const Scene& scene) {
 }
 
 bool is_refused(const std::string& bytes, Parse parse) {
-    try {
-        Renderer(parse(bytes, false), {"part.r", "other.r"}, test::on_reference());
-        return false;
-    } catch (const Error& error) {
-        CHECK(error.status() == Status::scene);
-        return !error.diagnostics().empty();
-    }
+    return !test::failure(Status::scene, [&] {
+                Renderer(parse(bytes, false), {"part.r", "other.r"}, test::on_reference());
+            }).empty();
 }
 
 bool is_of_unknown_type(const Scene& scene, const std::string& name) {
@@ -369,13 +366,9 @@ TEST_CASE("what is wrong beside the geometry is passed over, and told", "[field]
 
 TEST_CASE("a file that cannot be read as a whole is refused with its place", "[field]") {
     const auto refused = [](const std::string& bytes, Parse parse) {
-        try {
-            parse(bytes, true);
-            return false;
-        } catch (const Error& error) {
-            return error.status() == Status::scene &&
-                   (error.diagnostics()[0].place.line > 0 || error.diagnostics()[0].place.offset >= 0);
-        }
+        const test::Thrown thrown = test::thrown_by([&] { parse(bytes, true); });
+        return thrown.status == Status::scene &&
+               (thrown.findings[0].place.line > 0 || thrown.findings[0].place.offset >= 0);
     };
     CHECK(refused(sound_v5 + "put open.s ell V {0 0 0", parse_asc));
     CHECK(refused(sound_v5 + "draw all.g\n", parse_asc));

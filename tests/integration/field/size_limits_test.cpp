@@ -12,6 +12,7 @@
 #include "oracle/random.hpp"
 #include "integration/scenes.hpp"
 #include "bench/stress/build.hpp"
+#include "thrown.hpp"
 
 using namespace csgrt;
 using namespace csgrt::stress;
@@ -49,15 +50,9 @@ StressScene scaled(std::uint64_t seed, std::size_t times) {
 }
 
 std::string refusal(const Scene& scene, const std::vector<std::string>& objects = {}) {
-    try {
-        Renderer renderer(scene, objects, test::on_reference());
-    } catch (const Error& error) {
-        CHECK(error.status() == Status::scene);
-        return error.what();
-    }
-    return {};
+    return test::failure(Status::scene, [&] { Renderer(scene, objects, test::on_reference()); });
 }
-bool says(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+using test::says;
 
 Scene one(Shape shape, const Matrix& matrix = identity) {
     Scene scene;
@@ -176,13 +171,7 @@ TEST_CASE("what is beyond the limits is refused with the object, the value and t
 TEST_CASE("rays beyond the limits are refused with their number, the value and the limit", "[field][promise:limits]") {
     Renderer renderer(one(ball({0, 0, 0}, 1)), {}, test::on_reference());
     const auto refused = [&](const Ray& ray) {
-        try {
-            renderer.shoot({{{0, -9, 0}, {0, 1, 0}}, ray});
-        } catch (const Error& error) {
-            CHECK(error.status() == Status::usage);
-            return std::string(error.what());
-        }
-        return std::string();
+        return test::failure(Status::usage, [&] { renderer.shoot({{{0, -9, 0}, {0, 1, 0}}, ray}); });
     };
     CHECK(refused({{0, 0, 0}, {0, Limits::greatest_direction, 0}}).empty());
     CHECK(refused({{0, 0, 0}, {0, 0, Limits::least_direction}}).empty());

@@ -21,6 +21,7 @@
 #include "integration/same_answers.hpp"
 #include "bench/stress/build.hpp"
 #include "integration/stress/check.hpp"
+#include "thrown.hpp"
 
 using namespace csgrt;
 using namespace csgrt::stress;
@@ -240,13 +241,7 @@ double largest_difference(const Image& a, const Image& b) {
 }
 
 std::string refusal(const Scene& scene, const Camera& camera) {
-    try {
-        Renderer(scene, {}, test::on_reference()).render({8, 8, camera});
-    } catch (const Error& error) {
-        CHECK(error.status() == Status::usage);
-        return error.what();
-    }
-    return {};
+    return test::failure(Status::usage, [&] { Renderer(scene, {}, test::on_reference()).render({8, 8, camera}); });
 }
 
 Scene block_scene() { return parse_brlcad_asc(TextSource("lit.asc", lit_block({}))); }

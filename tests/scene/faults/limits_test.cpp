@@ -15,6 +15,7 @@
 #include "scene/faults/check_faults.hpp"
 #include "scene/make_scene.hpp"
 #include "scene/vector.hpp"
+#include "thrown.hpp"
 
 using namespace csgrt;
 
@@ -43,15 +44,9 @@ std::vector<std::pair<std::string, double>> numbers_in(const std::string& path, 
 }
 
 std::string refusal(const Scene& scene, const Settings& settings = on_reference()) {
-    try {
-        const Renderer renderer(scene, {}, settings);
-    } catch (const Error& error) {
-        return error.what();
-    }
-    return {};
+    return test::thrown_by([&] { Renderer(scene, {}, settings); }).text;
 }
-
-bool says(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+using test::says;
 
 double above(double number) { return std::nextafter(number, HUGE_VAL); }
 double below(double number) { return std::nextafter(number, 0); }
@@ -164,12 +159,7 @@ TEST_CASE("limits: sizes, and the finish", "[promise:limits]") {
 TEST_CASE("limits: rays", "[promise:limits]") {
     Renderer renderer(make_scene({ball("s")}), {}, on_reference());
     const auto is_refused = [&](const Ray& ray) {
-        try {
-            renderer.shoot({ray});
-        } catch (const Error&) {
-            return true;
-        }
-        return false;
+        return test::thrown_by([&] { renderer.shoot({ray}); }).status != Status::ok;
     };
     for (const bool past : {false, true}) {
         CHECK(is_refused({{past ? above(Limits::ray_origin) : Limits::ray_origin, 0, 0}, x}) == past);

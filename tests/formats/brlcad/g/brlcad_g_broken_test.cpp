@@ -6,6 +6,7 @@
 #include "formats/brlcad/g/reader.hpp"
 #include "formats/brlcad/g/bytes.hpp"
 #include "formats/brlcad/g/brlcad_g_writer.hpp"
+#include "thrown.hpp"
 
 using namespace csgrt;
 using namespace csgrt::g_test;
@@ -13,13 +14,7 @@ using namespace csgrt::g_test;
 namespace {
 
 std::vector<Diagnostic> findings_in(const std::string& bytes) {
-    try {
-        parse_brlcad_g(ByteSource("model.g", bytes));
-    } catch (const Error& error) {
-        REQUIRE(error.status() == Status::scene);
-        return error.diagnostics();
-    }
-    return {};
+    return asc_test::findings_by([&] { parse_brlcad_g(ByteSource("model.g", bytes)); });
 }
 
 /// One finding in the whole file.
@@ -69,13 +64,8 @@ TEST_CASE("g: what is no database of release 5 is refused", "[g][broken]") {
     check_file(header.substr(0, 7), 6, "", "the file ends after 7 bytes");
     check_file(sphere("a"), 0, "a", "does not start with the header");
 
-    try {
-        read_brlcad_g("no such folder/model.g");
-        FAIL("nothing was thrown");
-    } catch (const Error& error) {
-        CHECK(error.status() == Status::file);
-        CHECK(std::string(error.what()).find("no such folder/model.g") != std::string::npos);
-    }
+    CHECK(test::says(test::failure(Status::file, [] { read_brlcad_g("no such folder/model.g"); }),
+                     "no such folder/model.g"));
 }
 
 TEST_CASE("g: frames", "[g][broken]") {
