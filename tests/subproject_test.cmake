@@ -5,7 +5,8 @@ include(${CMAKE_CURRENT_LIST_DIR}/run.cmake)
 
 file(REMOVE_RECURSE ${WORK})
 function(configure name)
-    run(${CMAKE_COMMAND} -S ${PARENT} -B ${WORK}/${name} -G ${GENERATOR} -DCMAKE_CXX_COMPILER=${COMPILER} ${ARGN})
+    run(${CMAKE_COMMAND} -S ${PARENT} -B ${WORK}/${name} -G ${GENERATOR} -DCMAKE_CXX_COMPILER=${COMPILER} -DROOT=${ROOT}
+        ${ARGN})
     execute_process(COMMAND ${CMAKE_CTEST_COMMAND} --test-dir ${WORK}/${name} -N OUTPUT_VARIABLE tests
         COMMAND_ERROR_IS_FATAL ANY)
     if(NOT tests MATCHES "Test +#1: own\n" OR NOT tests MATCHES "Total Tests: 1\n")

@@ -18,11 +18,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::string content_of(const std::string& file) {
-    std::ifstream in(file, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), {}};
-}
-
 /// As a process leaves it that is killed.
 void leave(const std::string& file) {
     if (const int part = open(file.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0600); part >= 0) close(part);
@@ -45,13 +40,13 @@ TEST_CASE("what a killed process left is removed by the next that writes that fi
     first.write("first");
     second.write("second");
     first.keep();
-    CHECK(content_of(file) == "first");
+    CHECK(csgrt::test::read_file(file) == "first");
     NewFile third(file);
     third.write("third");
     second.keep();
-    CHECK(content_of(file) == "second");
+    CHECK(csgrt::test::read_file(file) == "second");
     third.keep();
-    CHECK(content_of(file) == "third");
+    CHECK(csgrt::test::read_file(file) == "third");
     CHECK(folder.files().size() == 3);  // the link and another file's
 }
 
@@ -72,7 +67,7 @@ TEST_CASE("threads that write one file at once, beside what others left, lose no
                 } catch (const csgrt::Error&) {
                     ++refused;
                 }
-                const std::string found = content_of(file);
+                const std::string found = csgrt::test::read_file(file);
                 const bool whole = found.size() == 500 && found.find_first_not_of(found[0]) == found.npos;
                 if (!whole && i % 4 != 0) ++wrong;
             }

@@ -1,6 +1,8 @@
 // What the tests of csgrt.h share: handles that free themselves, and calls that must not fail.
 #pragma once
 
+#include <cstring>
+
 #include <csgrt/csgrt.h>
 #include <csgrt/csgrt.hpp>
 
@@ -52,5 +54,26 @@ inline constexpr const char* wheels = R"({"csgrt": 1,
         "all": {"tree": {"union": ["wheel", {"object": "wheel", "translate": [60, 0, 0]},
                                    {"object": "wheel", "translate": [5, 40, 0]},
                                    {"object": "hub.r", "translate": [5, 0, 0]}]}}}})";
+
+/// The scene of wheels, its model, and a renderer of it.
+struct Wheels {
+    OwnedScene scene = {};
+    OwnedModel model = {};
+    OwnedRenderer renderer = {};
+
+    explicit Wheels(const csgrt_settings* settings = nullptr) {
+        REQUIRE_OK(csgrt_parse_scene(wheels, std::strlen(wheels), "wheels.json", nullptr, &scene));
+        REQUIRE_OK(csgrt_model_create(scene, nullptr, 0, nullptr, &model));
+        REQUIRE_OK(csgrt_renderer_create(model, settings, &renderer));
+    }
+};
+
+/// An empty list of partitions.
+struct NewPartitions : OwnedPartitions {
+    NewPartitions() { REQUIRE_OK(csgrt_partitions_create(&*this)); }
+};
+struct NewImage : OwnedImage {
+    NewImage() { REQUIRE_OK(csgrt_image_create(&*this)); }
+};
 
 }  // namespace csgrt::test

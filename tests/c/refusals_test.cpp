@@ -14,18 +14,6 @@ using namespace csgrt::test;
 
 namespace {
 
-struct Wheels {
-    OwnedScene scene = {};
-    OwnedModel model = {};
-    OwnedRenderer renderer = {};
-
-    explicit Wheels(const csgrt_settings* settings = nullptr) {
-        REQUIRE_OK(csgrt_parse_scene(wheels, std::strlen(wheels), "wheels.json", nullptr, &scene));
-        REQUIRE_OK(csgrt_model_create(scene, nullptr, 0, nullptr, &model));
-        REQUIRE_OK(csgrt_renderer_create(model, settings, &renderer));
-    }
-};
-
 csgrt_member number(const char* name, const double& value) { return {name, &value, 1, 0, nullptr}; }
 
 constexpr double infinite = std::numeric_limits<double>::infinity(), none = std::numeric_limits<double>::quiet_NaN();
@@ -110,8 +98,7 @@ TEST_CASE("every argument of C that is NULL is refused by its name", "[promise:c
     CHECK_REFUSED(csgrt_renderer_partitions(w.renderer, nullptr, nullptr), CSGRT_ERROR_USAGE, "rays is NULL");
     CHECK_REFUSED(csgrt_renderer_partitions(w.renderer, &rays, nullptr), CSGRT_ERROR_USAGE, "partitions is NULL");
     rays.count = 1;
-    OwnedPartitions partitions;
-    REQUIRE_OK(csgrt_partitions_create(&partitions));
+    NewPartitions partitions;
     CHECK_REFUSED(csgrt_renderer_partitions(w.renderer, &rays, partitions), CSGRT_ERROR_USAGE, "rays->list is NULL");
     CHECK_REFUSED(csgrt_renderer_cast_rays(w.renderer, &rays, nullptr), CSGRT_ERROR_USAGE, "hits is NULL");
     CHECK_REFUSED(csgrt_renderer_occluded(w.renderer, &rays, nullptr, 1), CSGRT_ERROR_USAGE, "answers is NULL");
@@ -149,8 +136,7 @@ TEST_CASE("structs of C of an earlier version have the defaults of later members
     view.size = offsetof(csgrt_view, samples);
     CHECK(c::view_of(&view).samples == 1);
     CHECK(c::view_of(&view).width == 7);
-    OwnedImage image;
-    REQUIRE_OK(csgrt_image_create(&image));
+    NewImage image;
     CHECK(csgrt_renderer_render(w.renderer, &view, image) == CSGRT_OK);
     for (const std::size_t size : {std::size_t{0}, sizeof(csgrt_view) + 1, offsetof(csgrt_view, samples) + 1}) {
         view.size = size;
@@ -168,8 +154,7 @@ TEST_CASE("structs of C of an earlier version have the defaults of later members
 
 TEST_CASE("what C passes on is refused with its index, its value or its place", "[promise:c]") {
     Wheels w;
-    OwnedPartitions partitions;
-    REQUIRE_OK(csgrt_partitions_create(&partitions));
+    NewPartitions partitions;
     std::vector<csgrt_ray> list(9, {{0, 0, 0}, {1, 0, 0}});
     list[7].direction = {0, 0, 0};
     csgrt_rays rays = CSGRT_RAYS;
@@ -228,10 +213,8 @@ TEST_CASE("no number that C sets is taken if it is none, or has no end") {
     OwnedModel model;
     OwnedRenderer renderer;
     OwnedVerifier verifier;
-    OwnedImage image;
-    OwnedPartitions partitions;
-    REQUIRE_OK(csgrt_image_create(&image));
-    REQUIRE_OK(csgrt_partitions_create(&partitions));
+    NewImage image;
+    NewPartitions partitions;
 
     csgrt_settings settings = CSGRT_SETTINGS;
     const auto makes_model = [&] { return csgrt_model_create(w.scene, nullptr, 0, &settings, &model); };
@@ -408,8 +391,7 @@ TEST_CASE("scenes are built in C of solids by the names of their members, meshes
     const Ray ray{{-30, 0.5, 0.25}, {2, 0, 0}};
     Partitions p;
     Model(expected).partitions(ray, p);
-    OwnedPartitions partitions;
-    REQUIRE_OK(csgrt_partitions_create(&partitions));
+    NewPartitions partitions;
     csgrt_rays rays = CSGRT_RAYS;
     rays.list = reinterpret_cast<const csgrt_ray*>(&ray);
     rays.count = 1;
@@ -455,8 +437,7 @@ TEST_CASE("a progress function of C ends a call", "[promise:c][promise:interrupt
     csgrt_view view = CSGRT_VIEW;
     view.width = view.height = 4000;
     view.samples = 16;
-    OwnedImage image;
-    REQUIRE_OK(csgrt_image_create(&image));
+    NewImage image;
     CHECK(csgrt_renderer_render(w.renderer, &view, image) == CSGRT_ERROR_INTERRUPTED);
     CHECK(calls == 2);
 }

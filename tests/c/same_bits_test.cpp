@@ -59,8 +59,7 @@ void require_same(const csgrt_partitions* found, const Partitions& p) {
 void require_same_rays(const csgrt_model* c_model, csgrt_renderer* c_renderer, Renderer& renderer) {
     const std::vector<Ray> list = random_rays(renderer.model().bounds(), tries(200));
     const std::vector<RayRange> ranges = random_ranges(list.size());
-    OwnedPartitions found;
-    REQUIRE_OK(csgrt_partitions_create(&found));
+    NewPartitions found;
     Partitions expected;
     for (const unsigned fields : {7u, 0u}) {  // what was there before is gone
         const Fields wanted{.solids = fields != 0, .normals = fields != 0, .overlaps = fields != 0};
@@ -139,8 +138,7 @@ void require_same_pictures(const csgrt_scene* c_scene, const csgrt_model* c_mode
     c_view.width = 48;
     c_view.height = 36;
     const Image expected = renderer.render({.width = 48, .height = 36, .camera = camera});
-    OwnedImage image;
-    REQUIRE_OK(csgrt_image_create(&image));
+    NewImage image;
     REQUIRE_OK(csgrt_renderer_render(c_renderer, &c_view, image));
     csgrt_image_info info = CSGRT_IMAGE_INFO;
     REQUIRE_OK(csgrt_image_get_info(image, &info));
@@ -345,12 +343,9 @@ TEST_CASE("pictures, partitions, hits, slices and points from C have the bits of
 // Each edit is written as a line of Python, too, which its interpreter runs.
 TEST_CASE("after 100 edits C++, C, librt's shape, the command and Python have the same bits",
           "[.interfaces][promise:c]") {
-    OwnedScene c_scene, parts, edited;
-    OwnedModel c_model;
-    OwnedRenderer c_renderer;
-    REQUIRE_OK(csgrt_parse_scene(wheels, std::strlen(wheels), "wheels.json", nullptr, &c_scene));
-    REQUIRE_OK(csgrt_model_create(c_scene, nullptr, 0, nullptr, &c_model));
-    REQUIRE_OK(csgrt_renderer_create(c_model, nullptr, &c_renderer));
+    Wheels made;
+    auto& [c_scene, c_model, c_renderer] = made;
+    OwnedScene parts, edited;
     REQUIRE_OK(csgrt_scene_create(&parts));
     const Scene scene = parse_scene(wheels, "wheels.json");
     Renderer renderer(scene);
@@ -489,21 +484,15 @@ TEST_CASE("after 100 edits C++, C, librt's shape, the command and Python have th
 }
 
 TEST_CASE("batches from C are those of a grid, and may be ended", "[promise:c]") {
-    OwnedScene scene;
-    OwnedModel model;
-    OwnedRenderer renderer;
-    OwnedPartitions whole;
-    REQUIRE_OK(csgrt_parse_scene(wheels, std::strlen(wheels), "wheels.json", nullptr, &scene));
-    REQUIRE_OK(csgrt_model_create(scene, nullptr, 0, nullptr, &model));
-    REQUIRE_OK(csgrt_renderer_create(model, nullptr, &renderer));
-    REQUIRE_OK(csgrt_partitions_create(&whole));
+    const Wheels w;
+    NewPartitions whole;
     csgrt_model_info info = CSGRT_MODEL_INFO;
-    REQUIRE_OK(csgrt_model_get_info(model, &info));
+    REQUIRE_OK(csgrt_model_get_info(w.model, &info));
     csgrt_ray_grid grid;
     REQUIRE_OK(csgrt_rays_parallel(&info.bounds, 1, 20, 30, &grid));
     csgrt_rays rays = CSGRT_RAYS;
     rays.grid = &grid;
-    REQUIRE_OK(csgrt_renderer_partitions(renderer, &rays, whole));
+    REQUIRE_OK(csgrt_renderer_partitions(w.renderer, &rays, whole));
     csgrt_partition_arrays all = CSGRT_PARTITION_ARRAYS;
     REQUIRE_OK(csgrt_partitions_get(whole, &all));
 
@@ -518,13 +507,13 @@ TEST_CASE("batches from C are those of a grid, and may be ended", "[promise:c]")
         to.t_in.insert(to.t_in.end(), part.t_in, part.t_in + part.row_count);
         return ++to.batches < to.most ? 1 : 0;
     };
-    REQUIRE_OK(csgrt_renderer_partitions_in_batches(renderer, &rays, 250, take, &seen));
+    REQUIRE_OK(csgrt_renderer_partitions_in_batches(w.renderer, &rays, 250, take, &seen));
     CHECK(seen.batches == 3);
     CHECK(same_bytes(all.t_in, all.row_count, seen.t_in));
     seen = {.most = 1};
-    REQUIRE_OK(csgrt_renderer_partitions_in_batches(renderer, &rays, 250, take, &seen));
+    REQUIRE_OK(csgrt_renderer_partitions_in_batches(w.renderer, &rays, 250, take, &seen));
     CHECK(seen.batches == 1);
     csgrt_statistics statistics = CSGRT_STATISTICS;
-    REQUIRE_OK(csgrt_renderer_statistics(renderer, &statistics));
+    REQUIRE_OK(csgrt_renderer_statistics(w.renderer, &statistics));
     CHECK(statistics.rays == 250);
 }

@@ -44,11 +44,7 @@ inline std::string command() {
     }
 
 using csgrt::test::Folder;
-
-inline std::string read_file(const std::string& path) {
-    std::ifstream file(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
-}
+using csgrt::test::read_file;
 
 struct Result {
     int status = -1;  ///< 128 + the signal that killed it

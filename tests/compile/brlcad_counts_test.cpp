@@ -85,10 +85,7 @@ bool has_brlcad_box(const Shape& shape) {
 
 TEST_CASE("BRL-CAD's models flatten to the solids, regions and boxes that it finds itself", "[promise:brlcad]") {
     const std::string truths = test::folder("CSGRT_TRUTH"), models = test::folder("CSGRT_BRLCAD");
-    if (truths.empty() || models.empty()) {
-        WARN("CSGRT_TRUTH and CSGRT_BRLCAD name no folders: skipped");
-        return;
-    }
+    if (truths.empty() || models.empty()) return;
     std::ifstream list(truths + "/objects.txt");
     int sets = 0;
     for (std::string line; std::getline(list, line);) {

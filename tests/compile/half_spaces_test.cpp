@@ -104,9 +104,7 @@ TEST_CASE("half-spaces: what was removed from what is gone is met near what is l
 }
 
 TEST_CASE("half-spaces: a plate, which rays may meet outside its box, is cut wherever it is") {
-    Bot plate;
-    plate.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
-    plate.faces = {{0, 1, 2}};
+    Bot plate{.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, .faces = {{0, 1, 2}}};
     plate.mode = Bot::Mode::plate;
     plate.thickness = {0.1};
     const Row row({leg("a"), leg("plate"), either, leg("h"), both}, {solid("plate", plate)});

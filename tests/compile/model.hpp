@@ -43,8 +43,7 @@ inline Solid block(const std::string& name, const Vec3& low, const Vec3& high) {
 }
 
 inline Combination group(const std::string& name, std::vector<TreeNode> nodes) {
-    Combination c;
-    c.name = name;
+    Combination c{.name = name};
     c.tree.nodes = std::move(nodes);
     c.place = {"scene.json", 7, 3, -1, name};
     return c;
@@ -56,11 +55,7 @@ inline Combination region(const std::string& name, std::vector<TreeNode> nodes, 
     return c;
 }
 
-inline Scene scene(std::initializer_list<Object> objects) {
-    Scene result;
-    result.objects = objects;
-    return result;
-}
+inline Scene scene(std::initializer_list<Object> objects) { return {.objects = objects}; }
 
 inline Matrix moved(double x, double y, double z) { return {1, 0, 0, x, 0, 1, 0, y, 0, 0, 1, z, 0, 0, 0, 1}; }
 /// About the z axis.

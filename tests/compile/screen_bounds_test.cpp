@@ -47,9 +47,7 @@ Scene moved_by(const Scene& scene, double away) {
 
 View random_view(std::mt19937& random, const Vec3& center, double size) {
     const auto between = [&](double a, double b) { return std::uniform_real_distribution<>(a, b)(random); };
-    View view;
-    view.width = 96;
-    view.height = 71;
+    View view{.width = 96, .height = 71};
     view.camera.azimuth = between(0, 360);
     view.camera.elevation = between(-90, 90);
     if (random() % 2) view.camera.perspective = random() % 4 ? between(5, 120) : 0.1;
@@ -84,9 +82,7 @@ TEST_CASE("no ray outside of the screen meets anything") {
 TEST_CASE(
     "the screen is all of the picture if something is unbounded or around the eye, and none of it if there is "
     "nothing") {
-    View view;
-    view.width = 50;
-    view.height = 30;
+    View view{.width = 50, .height = 30};
     const auto screen_bounds = [&](const Scene& scene) {
         const CompiledScene compiled = compile(scene, {});
         const PreparedFrame prepared = prepare_frame(compiled, view);

@@ -17,6 +17,7 @@
 #include "device/binary_cache.hpp"
 #include "device/compiling_device.hpp"
 #include "device/program.hpp"
+#include "folder.hpp"
 #include "integration/same_answers.hpp"
 #include "integration/scenes.hpp"
 #include "sanitized.hpp"
@@ -49,11 +50,6 @@ public:
 private:
     fs::path path_;
 };
-
-std::string content_of(const fs::path& file) {
-    std::ifstream in(file, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), {}};
-}
 
 void write(const fs::path& file, const std::string& content) { std::ofstream(file, std::ios::binary) << content; }
 
@@ -127,12 +123,12 @@ TEST_CASE("binaries: a file that was cut off, altered or is another key's counts
     const BinaryCache cache(folder.path());
     cache.keep("key", some_binary);
     const fs::path file = cache.file_of("key");
-    const std::string whole = content_of(file);
+    const std::string whole = test::read_file(file);
     const auto is_refused = [&](const std::string& content) {
         write(file, content);
         if (cache.find("key")) return false;
         cache.keep("key", some_binary);
-        return cache.find("key") == some_binary && content_of(file) == whole;
+        return cache.find("key") == some_binary && test::read_file(file) == whole;
     };
     for (std::size_t size = 0; size < whole.size(); size += size < 80 ? 1 : 97) {
         INFO(size << " of " << whole.size() << " bytes");
@@ -169,7 +165,7 @@ TEST_CASE("binaries: where nothing can be written nothing is kept, and that is n
         cache.keep("key", some_binary);
         CHECK_FALSE(cache.find("key"));
     }
-    CHECK(content_of(folder.path()) == "a file, no folder");
+    CHECK(test::read_file(folder.path()) == "a file, no folder");
 }
 
 TEST_CASE("binaries: what is no regular file is left alone, and waits for nobody", "[device]") {
@@ -273,8 +269,7 @@ TEST_CASE("binaries: the folder is csgrt's own variable's, else in the user's ca
 }
 
 TEST_CASE("binaries: drivers that keep their own, and native devices, have no cache here", "[device]") {
-    DeviceInfo info;
-    info.platform = "Intel(R) OpenCL";
+    DeviceInfo info{.platform = "Intel(R) OpenCL"};
     CHECK(binary_cache_for(info));
     for (const char* platform : {"csgrt", "Portable Computing Language", "NVIDIA CUDA"}) {
         info.platform = platform;
@@ -303,7 +298,7 @@ TEST_CASE("a program comes from the cache with the same source and options, and 
 
     // Whole files of what is no binary: the driver refuses them, and the right ones take their places.
     for (const fs::path& file : folder.files()) {
-        const std::string content = content_of(file);
+        const std::string content = test::read_file(file);
         const std::size_t first = content.find('\n') + 1;
         const std::size_t key_bytes = std::stoull(content.substr(first + 16, 16), nullptr, 16);
         BinaryCache(folder.path()).keep(content.substr(first + 49, key_bytes), "no binary");
@@ -325,11 +320,8 @@ TEST_CASE("pictures and partitions of programs from the cache have the bits of t
     const Folder folder;
     const ForcedCache forced(folder.path());
     const Scene scene = load_scene(scenes + "/operators.json");
-    Settings settings;
-    settings.device = test::compiling_device();
-    settings.wait_for_device = true;
-    View view;
-    view.width = view.height = 48;
+    Settings settings{.device = test::compiling_device(), .wait_for_device = true};
+    View view{.width = 48, .height = 48};
     Image pictures[2];
     std::vector<RayPartitions> shot[2];
     std::vector<std::string> contents[2];
@@ -337,7 +329,7 @@ TEST_CASE("pictures and partitions of programs from the cache have the bits of t
         Renderer renderer(scene, {}, settings);
         pictures[i] = renderer.render(view);
         shot[i] = renderer.shoot(test::random_rays(renderer.model().bounds(), 200));
-        for (const fs::path& file : folder.files()) contents[i].push_back(content_of(file));
+        for (const fs::path& file : folder.files()) contents[i].push_back(test::read_file(file));
     }
     CHECK_FALSE(contents[0].empty());
     CHECK(contents[1] == contents[0]);

@@ -10,8 +10,7 @@ using namespace csgrt;
 namespace {
 
 DeviceInfo made_up(const char* name, const char* type, bool fp64) {
-    DeviceInfo info;
-    info.name = name;
+    DeviceInfo info{.name = name};
     info.platform = "Platform of " + info.name;
     info.type = type;
     info.fp64 = fp64;

@@ -33,11 +33,7 @@ bool has_native() {
     return false;
 }
 
-Settings with_device(const std::string& device) {
-    Settings settings;
-    settings.device = device;
-    return settings;
-}
+Settings with_device(const std::string& device) { return {.device = device}; }
 
 }  // namespace
 
@@ -151,8 +147,7 @@ TEST_CASE("without any device the reference draws, and says so", "[.no_driver][p
     CHECK(told.starts_with("no device draws but the CPU reference"));
     CHECK(told.ends_with("there is no OpenCL device with double precision"));
     CHECK(image.attributes.count("csgrt:warnings") == !renderer.model().warnings().empty());
-    Settings settings;
-    settings.reference = true;
+    Settings settings{.reference = true};
     Renderer reference(scene, {}, settings);
     test::require_same(image, reference.render(view));
     CHECK(reference.device_warnings().empty());

@@ -262,7 +262,7 @@ TEST_CASE("a kernel that is not there, or is called wrongly, is named", "[device
     CHECK(has(group, "CL_INVALID_WORK_GROUP_SIZE"));
 }
 
-TEST_CASE("an error of OpenCL has its name, and memory errors their status", "[device]") {
+TEST_CASE("an error of OpenCL has its name, and memory errors their status", "[device][promise:failures]") {
     CHECK(test::failure(Status::device_fault, [] { check(CL_OUT_OF_RESOURCES, "clFinish"); }) ==
           "clFinish failed: CL_OUT_OF_RESOURCES (-5)");
     CHECK(test::failure(Status::out_of_memory, [] { check(CL_MEM_OBJECT_ALLOCATION_FAILURE, "f"); }) ==

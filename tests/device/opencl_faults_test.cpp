@@ -123,9 +123,7 @@ Scene small_scene() { return bench::scene_of_parts(6); }
 
 /// On a native device, from its discovery to its end.
 std::vector<Case> native_cases() {
-    Settings settings;
-    settings.device = "native";
-    settings.threads = 2;
+    Settings settings{.device = "native", .threads = 2};
     const auto on = [=](const Scene& scene, const std::function<Answer(Renderer&)>& call) {
         return [=]() -> std::function<Answer()> {
             const auto renderer = std::make_shared<Renderer>(scene, std::vector<std::string>{}, settings);
@@ -168,8 +166,7 @@ std::vector<Case> asynchronous_cases(FaultyOpenCl& faulty) {
                 std::unique_ptr<HostKernels> kernels = make_kernels(compiled);
                 std::unique_ptr<DeviceGroup> group = nullptr;
             };
-            Settings reference;
-            reference.reference = true;
+            Settings reference{.reference = true};
             const auto parts = std::make_shared<Parts>(Parts{scene, Renderer(scene, {}, reference)});
             const std::vector<FoundDevice> all = find_devices().devices;
             FoundDevice device = all.at(choose_device(infos_of(all), test::compiling_device()));

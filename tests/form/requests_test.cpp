@@ -327,8 +327,7 @@ public:
         });
     }
     Camera camera() {
-        Camera camera;
-        camera.perspective = coin() ? 0 : number(0, 179);
+        Camera camera{.perspective = coin() ? 0 : number(0, 179)};
         if (coin()) {
             camera.eye = vector();
         } else {

@@ -25,12 +25,6 @@ Status status_of(const std::function<void()>& action) {
     return thrown.status;
 }
 
-std::string content(const std::string& path) {
-    std::ostringstream text;
-    text << std::ifstream(path).rdbuf();
-    return text.str();
-}
-
 }  // namespace
 
 TEST_CASE("scene io: what is saved loads to the same scene", "[promise:round-trip]") {
@@ -69,10 +63,10 @@ TEST_CASE("scene io: a file is replaced whole, or left alone", "[promise:files]"
     std::ofstream(path) << "before";
     Scene scene = make_scene({ball("a", std::numeric_limits<double>::infinity())});
     CHECK(status_of([&] { save_scene(scene, path); }) == Status::scene);
-    CHECK(content(path) == "before");
+    CHECK(test::read_file(path) == "before");
     scene = make_scene({ball("a")});
     save_scene(scene, path);
-    CHECK(content(path).find("sphere") != std::string::npos);
+    CHECK(test::read_file(path).find("sphere") != std::string::npos);
     CHECK(folder.files().size() == 1);
 
     CHECK(status_of([&] { save_scene(scene, folder / "absent/scene.json"); }) == Status::file);
@@ -87,7 +81,7 @@ TEST_CASE("scene io: a link stays, what it leads to is replaced; a device is wri
     fs::create_symlink(folder / "real.json", folder / "link.json");
     save_scene(scene, folder / "link.json");
     CHECK(fs::is_symlink(folder / "link.json"));
-    CHECK(content(folder / "real.json").find("sphere") != std::string::npos);
+    CHECK(test::read_file(folder / "real.json").find("sphere") != std::string::npos);
     save_scene(scene, "/dev/null");
     if (fs::exists("/dev/full")) CHECK(status_of([&] { save_scene(scene, "/dev/full"); }) == Status::file);
 }

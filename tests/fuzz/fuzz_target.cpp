@@ -38,9 +38,7 @@ void print_counts() {
 }
 
 void shoot_at(const Scene& scene) {
-    Settings settings;
-    settings.reference = true;
-    settings.threads = 1;
+    Settings settings{.reference = true, .threads = 1};
     settings.skip_unsupported = true;
     settings.max_instances = most_instances;
     static_cast<void>(

@@ -3,12 +3,9 @@
 
 /// 0; 4: there is no such device.
 extern "C" int draw(const char* scene) try {
-    csgrt::Settings settings;
-    settings.device = "pocl";
+    csgrt::Settings settings{.device = "pocl"};
     static csgrt::Renderer kept(csgrt::load_scene(scene), {}, settings);
-    csgrt::View view;
-    view.width = view.height = 24;
-    view.every_partition = false;
+    csgrt::View view{.width = 24, .height = 24, .every_partition = false};
     kept.render(view);
     return 0;
 } catch (const csgrt::Error& error) {

@@ -71,8 +71,7 @@ inline void require_good(const std::string& what, const std::function<void()>& w
 
 /// Who computes: the native device, PoCL or "reference".
 inline Settings on(const std::string& who) {
-    Settings settings;
-    settings.threads = 3;
+    Settings settings{.threads = 3};
     if (who == "reference")
         settings.reference = true;
     else
@@ -117,12 +116,6 @@ inline std::size_t require_silent_threads(const std::set<std::string>& before = 
 inline Scene small_scene() { return load_scene(test::folder("CSGRT_SCENES") + "/operators.json"); }
 
 /// First hits: few kernels to compile.
-inline View small_view() {
-    View view;
-    view.width = 24;
-    view.height = 18;
-    view.every_partition = false;
-    return view;
-}
+inline View small_view() { return {.width = 24, .height = 18, .every_partition = false}; }
 
 }  // namespace csgrt::test

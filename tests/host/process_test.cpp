@@ -54,8 +54,7 @@ std::string texts(const std::string& folder) {
     std::string all;
     for (const std::string& file : scene_files()) {
         save_scene(load_scene(file), folder + "/scene.json");
-        std::ifstream written(folder + "/scene.json");
-        all.append(std::istreambuf_iterator<char>(written), {});
+        all += test::read_file(folder + "/scene.json");
     }
     const auto say = [&](const auto& call) {
         try {

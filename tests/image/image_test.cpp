@@ -58,11 +58,6 @@ Image gray(std::vector<float> values) {
     return image;
 }
 
-std::string content(const std::string& path) {
-    std::ifstream file(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
-}
-
 }  // namespace
 
 TEST_CASE("an EXR keeps every channel, bit by bit, and the header", "[image][promise:pictures]") {
@@ -131,9 +126,7 @@ TEST_CASE("EXR and PNG of one picture look the same, however it was drawn", "[im
     const char* scenes = std::getenv("CSGRT_SCENES");
     REQUIRE(scenes != nullptr);
     const Scene scene = load_scene(std::string(scenes) + "/operators.json");
-    Settings settings;
-    settings.reference = true;
-    settings.display_shading = GENERATE(false, true);
+    Settings settings{.reference = true, .display_shading = GENERATE(false, true)};
     View view{.width = 60, .height = 50, .camera = scene.camera, .every_partition = false};
     view.transparent = GENERATE(false, true);
     INFO("display shading " << settings.display_shading << ", transparent " << view.transparent);
@@ -200,7 +193,7 @@ TEST_CASE("who follows the writing of an EXR gets the same bytes, and may end it
     CHECK(test::failure(Status::interrupted, [&] {
               write_image(image, file, "exr", [](double part) { return part < 0.5; });
           }) == "interrupted");
-    CHECK(content(file) == "old");
+    CHECK(test::read_file(file) == "old");
     CHECK(folder.files().size() == 1);
 }
 
@@ -208,14 +201,14 @@ TEST_CASE("a file is replaced whole, and left alone when writing fails", "[image
     const Folder folder;
     std::ofstream(folder / "a.png") << "old";
     write_image(gray({1, 0}), folder / "a.png");
-    CHECK(content(folder / "a.png").starts_with("\x89PNG"));
+    CHECK(test::read_file(folder / "a.png").starts_with("\x89PNG"));
     CHECK(folder.files().size() == 1);
 
     std::ofstream(folder / "b.png") << "old";
     Image broken = gray({1, 0});
     broken.width = 3;
     CHECK_THROWS_AS(write_image(broken, folder / "b.png"), Error);
-    CHECK(content(folder / "b.png") == "old");
+    CHECK(test::read_file(folder / "b.png") == "old");
 
     // A folder in the file's place: the temporary file is written, the rename fails, the temporary file goes.
     fs::create_directory(folder / "c.png");
@@ -313,8 +306,8 @@ TEST_CASE("\"-\" is standard output", "[image]") {
     dup2(saved, STDOUT_FILENO);
     close(saved);
     write_image(image, folder / "file.png");
-    CHECK(content(folder / "out") == content(folder / "file.png"));
-    CHECK(!content(folder / "out").empty());
+    CHECK(test::read_file(folder / "out") == test::read_file(folder / "file.png"));
+    CHECK(!test::read_file(folder / "out").empty());
 }
 
 TEST_CASE("a picture that is cut short, or says of a row that it is not there, is not whole", "[image]") {

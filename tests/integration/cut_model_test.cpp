@@ -29,9 +29,7 @@ Scene model() {
     for (int i = 0; i < 40; ++i) {
         std::vector<Tree> parts;
         for (int k = i % 5; k >= 0; --k) parts.push_back(operate(Operator::difference, {part(), part()}));
-        Combination region;
-        region.name = "r" + std::to_string(i);
-        region.region = true;
+        Combination region{.name = "r" + std::to_string(i), .region = true};
         region.tree = parts.size() == 1 ? parts[0] : operate(i % 7 == 1 ? Operator::xor_ : Operator::union_, parts);
         scene.objects.push_back(region);
         regions.push_back(leaf(region.name));
@@ -73,9 +71,7 @@ TEST_CASE("a half-space cuts a whole model: the device has the reference's bits,
         for (const Operator op : {Operator::intersection, Operator::difference}) {
             Scene cut = scene;
             cut.objects.push_back(Solid{"half", Half{plane}, {}});
-            Combination top;
-            top.name = "cut";
-            top.tree = operate(op, {leaf("all"), leaf("half")});
+            Combination top{.name = "cut", .tree = operate(op, {leaf("all"), leaf("half")})};
             cut.objects.push_back(top);
             Settings settings = test::on_device();
             Renderer device(cut, {"cut"}, settings);
@@ -84,8 +80,7 @@ TEST_CASE("a half-space cuts a whole model: the device has the reference's bits,
             Renderer reference(cut, {"cut"}, settings);
             CHECK(device.model().regions().size() == whole.model().regions().size());
             test::require_same(device.shoot(rays), reference.shoot(rays));
-            View view;
-            view.width = view.height = 64;
+            View view{.width = 64, .height = 64};
             for (const bool every_partition : {true, false}) {
                 view.every_partition = every_partition;
                 test::require_same(device.render(view), reference.render(view));

@@ -28,9 +28,7 @@ inline Tree tree_of(const std::vector<std::string>& names, const std::vector<Ope
 }
 
 inline Combination region_of(const std::string& name, Tree tree) {
-    Combination region;
-    region.name = name;
-    region.region = true;
+    Combination region{.name = name, .region = true};
     region.tree = std::move(tree);
     return region;
 }

@@ -90,10 +90,7 @@ struct Spot {
 };
 
 inline void add_combination(Scene& scene, const std::string& name, Tree tree, bool region) {
-    Combination combination;
-    combination.name = name;
-    combination.tree = std::move(tree);
-    combination.region = region;
+    Combination combination{.name = name, .tree = std::move(tree), .region = region};
     scene.objects.push_back(std::move(combination));
 }
 
@@ -163,11 +160,7 @@ struct EverySolid {
     }
 };
 
-inline Settings on_reference() {
-    Settings settings;
-    settings.reference = true;
-    return settings;
-}
+inline Settings on_reference() { return {.reference = true}; }
 
 /// The reference, and the device that has its bits.
 class Both {

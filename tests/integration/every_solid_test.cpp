@@ -217,9 +217,7 @@ TEST_CASE("every solid: a picture shows the first partition of each of its rays,
           "[promise:pictures]") {
     EverySolid model(0);
     Both both(model.scene);
-    View view;
-    view.width = 101;
-    view.height = 100;
+    View view{.width = 101, .height = 100};
     view.camera.view_size = 110;
     view.camera.center = Vec3{0, 0, 0};
     std::map<std::string, std::size_t> shown;  // pixels, by sample
@@ -321,8 +319,7 @@ TEST_CASE("every solid: what is thinner than the tolerance vanishes, what is thi
     const std::vector<RayPartitions> whole = Renderer(scene, wholes, on_reference()).shoot(rays);
     for (const double tolerance : {2 * thickness, 0.5 * thickness}) {
         INFO("tolerance " << tolerance);
-        Settings settings;
-        settings.tolerance = tolerance;
+        Settings settings{.tolerance = tolerance};
         Both both(scene, settings);
         CHECK(both.reference().statistics().tolerance == tolerance);
         const std::vector<RayPartitions> films = both.shoot(rays);

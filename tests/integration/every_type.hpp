@@ -30,8 +30,7 @@ inline Scene with_every_type(Scene scene, std::vector<std::string>& objects) {
     const double width = diagonal(box) / 50;
     int place = -2;
 
-    Combination all;
-    all.name = "every type";
+    Combination all{.name = "every type"};
     // No scene of ours has one.
     const double reach = width / 4;
     const std::string crossed = all.name + "/crossed eto";

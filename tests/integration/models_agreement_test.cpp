@@ -15,14 +15,9 @@ using test::require_same;
 using test::with_every_type;
 
 TEST_CASE("device and reference agree on BRL-CAD's models", "[agreement][promise:bits]") {
-    const std::string folder = test::folder("CSGRT_BRLCAD");
-    if (folder.empty()) {
-        WARN("CSGRT_BRLCAD names no folder of models: nothing compared");
-        return;
-    }
-    for (const test::Model& model : test::models()) {
+    for (const test::Model& model : test::models_there()) {
         INFO(model.file);
-        Scene scene = load_scene(folder + "/" + model.file);
+        Scene scene = load_scene(model.file);
         std::vector<std::string> objects = model.objects;
         if (!model.main) scene = with_every_type(std::move(scene), objects);
         require_agreement(scene, objects, model.main ? 64 : 24, 200);
@@ -37,34 +32,23 @@ TEST_CASE("the scene of every type has every type", "[agreement][promise:solids]
 }
 
 TEST_CASE("device and reference agree on BRL-CAD's models, 512 x 512", "[.long][agreement][promise:bits]") {
-    const std::string folder = test::folder("CSGRT_BRLCAD");
-    if (folder.empty()) {
-        WARN("CSGRT_BRLCAD names no folder of models: nothing compared");
-        return;
-    }
-    for (const test::Model& model : test::models()) {
+    for (const test::Model& model : test::models_there()) {
         INFO(model.file);
-        require_agreement(load_scene(folder + "/" + model.file), model.objects, 512, 20000);
+        require_agreement(load_scene(model.file), model.objects, 512, 20000);
     }
 }
 
 TEST_CASE("a model gives the same picture from .asc, from .g and from the .json that they become",
           "[agreement][promise:round-trip]") {
-    const std::string folder = test::folder("CSGRT_BRLCAD");
-    if (folder.empty()) {
-        WARN("CSGRT_BRLCAD names no folder of models: nothing compared");
-        return;
-    }
     const std::string converted = (std::filesystem::temp_directory_path() / "csgrt_converted.json").string();
     const auto picture = [](const Scene& scene, const std::vector<std::string>& objects) {
-        Settings settings;
-        settings.reference = true;
+        Settings settings{.reference = true};
         return Renderer(scene, objects, settings).render({.width = 24, .height = 24, .camera = scene.camera});
     };
-    for (const test::Model& model : test::models()) {
+    for (const test::Model& model : test::models_there()) {
         INFO(model.file);
-        const std::string path = folder + "/" + model.file;
-        const Scene text = load_scene(path), binary = load_scene(path.substr(0, path.size() - 3) + "g");
+        const Scene text = load_scene(model.file),
+                    binary = load_scene(model.file.substr(0, model.file.size() - 3) + "g");
         const Image expected = picture(text, model.objects);
         require_same(picture(binary, model.objects), expected);
         for (const Scene* scene : {&text, &binary}) {

@@ -13,9 +13,7 @@ namespace {
 
 void add_region(Scene& scene, const std::string& name, Shape shape) {
     scene.objects.push_back(Solid{"s." + name, std::move(shape), {}});
-    Combination region;
-    region.name = "r." + name;
-    region.region = true;
+    Combination region{.name = "r." + name, .region = true};
     region.tree.nodes.push_back({Operator::leaf, 0, "s." + name, identity, {}});
     scene.objects.push_back(region);
 }
@@ -50,8 +48,7 @@ TEST_CASE("device and reference agree on what outlines make", "[agreement]") {
     picture.matrix[7] = -6;
     add("ebm", picture);
 
-    Settings by_reference;
-    by_reference.reference = true;
+    Settings by_reference{.reference = true};
     Renderer reference(scene, regions, by_reference), device(scene, regions);
     std::vector<Ray> rays;
     for (int i = 0; i < 3000; ++i) {

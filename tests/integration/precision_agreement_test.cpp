@@ -28,7 +28,6 @@ Settings in_world() { return with_methods({.single_world = true}, test::on_devic
 // time here. `all`: each in its own.
 void require_scenes(const Settings& settings, bool all) {
     const std::vector<std::string> files = test::scene_files();
-    if (files.empty()) WARN("CSGRT_SCENES names no folder of scenes: nothing compared");
     for (std::size_t i = 0; i < files.size(); i += all ? 1 : 3) {
         INFO(files[i]);
         std::vector<std::string> objects;
@@ -39,15 +38,10 @@ void require_scenes(const Settings& settings, bool all) {
 }
 
 void require_models(const Settings& settings) {
-    const std::string folder = test::folder("CSGRT_BRLCAD");
-    if (folder.empty()) {
-        WARN("CSGRT_BRLCAD names no folder of models: nothing compared");
-        return;
-    }
-    for (const test::Model& model : test::models()) {
+    for (const test::Model& model : test::models_there()) {
         if (!model.main) continue;
         INFO(model.file);
-        test::require_agreement(load_scene(folder + "/" + model.file), model.objects, 64, 100, settings);
+        test::require_agreement(load_scene(model.file), model.objects, 64, 100, settings);
     }
 }
 

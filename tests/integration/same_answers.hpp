@@ -226,10 +226,7 @@ inline void require_agreement(const Scene& scene, const std::vector<std::string>
     little.max_memory = scene_bytes + 400'000;  // some dozen batches
     Renderer batched(scene, objects, little);
     for (const double perspective : {0.0, 40.0}) {
-        View view;
-        view.width = size;
-        view.height = size;
-        view.camera = scene.camera;
+        View view{.width = size, .height = size, .camera = scene.camera};
         view.camera.perspective = perspective;
         INFO("perspective " << perspective);
         const Image expected = reference.render(view);

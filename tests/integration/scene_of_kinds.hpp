@@ -24,9 +24,7 @@ inline Scene scene_of(const std::vector<oracle::Kind>& kinds, std::vector<Ray>& 
             const oracle::Case one = oracle::make_case(kind, i, random);
             const std::string number = std::to_string(static_cast<int>(kind)) + "." + std::to_string(i);
             scene.objects.push_back(Solid{"s" + number, one.shape, {}});
-            Combination region;
-            region.name = "r" + number;
-            region.region = true;
+            Combination region{.name = "r" + number, .region = true};
             region.tree.nodes.push_back({Operator::leaf, 0, "s" + number, one.matrix, {}});
             scene.objects.push_back(region);
             all.tree.nodes.push_back({Operator::leaf, 0, "r" + number, identity, {}});

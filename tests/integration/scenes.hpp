@@ -7,11 +7,16 @@
 #include <string>
 #include <vector>
 
+#include "catch.hpp"
+
 namespace csgrt::test {
 
+/// The folder that an environment's variable names; empty, with a word, if there is none.
 inline std::string folder(const char* variable) {
     const char* value = std::getenv(variable);
-    return value && std::filesystem::is_directory(value) ? value : "";
+    if (value && std::filesystem::is_directory(value)) return value;
+    WARN("skipped: " << variable << " names no folder");
+    return "";
 }
 
 /// Every .json scene in CSGRT_SCENES, sorted; the schema is none.
@@ -56,6 +61,17 @@ inline std::vector<Model> models() {
             {"sphflake.asc", {"scene.r"}},
             {"terra.asc", {"all.g"}},
             {"toyjeep.asc", {"all"}}};
+}
+
+/// The same with their paths; none if there is no folder of them. `few`: the main ones, and the goliath.
+inline std::vector<Model> models_there(bool few = false) {
+    const std::string models_folder = folder("CSGRT_BRLCAD");
+    std::vector<Model> there;
+    for (Model& model : models()) {
+        if (models_folder.empty() || (few && !model.main && model.file != "goliath.asc")) continue;
+        there.push_back({models_folder + "/" + model.file, model.objects, model.main});
+    }
+    return there;
 }
 
 }  // namespace csgrt::test

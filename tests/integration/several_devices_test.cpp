@@ -36,8 +36,7 @@ TEST_CASE("two devices give what one gives", "[.two_devices][promise:bits]") {
     for (const char* file : {"/operators.json", "/overlap.json"}) {
         INFO(file);
         const Scene scene = load_scene(folder + file);
-        Settings settings;
-        settings.device = one_pocl();
+        Settings settings{.device = one_pocl()};
         Renderer one(scene, {}, settings);
         settings.device = both_pocls();
         Renderer two(scene, {}, settings);
@@ -60,14 +59,11 @@ TEST_CASE("two devices give what one gives", "[.two_devices][promise:bits]") {
 
 TEST_CASE("a native device shares a frame with another", "[.two_devices]") {
     const Scene scene = load_scene(test::folder("CSGRT_SCENES") + "/overlap.json");
-    Settings settings;
-    settings.device = one_pocl();
+    Settings settings{.device = one_pocl()};
     Renderer one(scene, {}, settings);
     settings.device = "native," + one_pocl();
     Renderer two(scene, {}, settings);
-    View view;
-    view.width = 203;
-    view.height = 157;
+    View view{.width = 203, .height = 157};
     test::require_same(one.render(view), two.render(view));
     CHECK(two.statistics().device.find(" + " + one.statistics().device) != std::string::npos);
 }
@@ -77,8 +73,7 @@ TEST_CASE("two devices: an interrupted frame, and the next one", "[.two_devices]
     std::atomic<bool> go_on{false};
     std::atomic<int> told{0};
     double last = 0;
-    Settings settings;
-    settings.device = both_pocls();
+    Settings settings{.device = both_pocls()};
     settings.progress = [&](double fraction) {
         ++told;
         last = std::max(last, fraction);
@@ -97,17 +92,13 @@ TEST_CASE("two devices read a picture back asynchronously", "[.two_devices]") {
     // Its memory is registered to them, or not.
     const bool is_registered = GENERATE(false, true);
     const Scene scene = load_scene(test::folder("CSGRT_SCENES") + "/overlap.json");
-    Settings settings;
-    settings.device = one_pocl();
+    Settings settings{.device = one_pocl()};
     Renderer one(scene, {}, settings);
     settings.device = both_pocls();
     const CompiledScene compiled = compile(scene, {});
     const auto kernels = make_kernels(compiled, settings);
     DeviceGroup two(plan_devices(settings).first, compiled, *kernels, settings, Readback::asynchronous);
-    View view;
-    view.width = 301;
-    view.height = 257;
-    view.channels = channel::color | channel::ids;
+    View view{.width = 301, .height = 257, .channels = channel::color | channel::ids};
     Channels pixels(301 * 257, std::vector<float>(6));
     std::vector<ChannelMemory> planes;
     const PreparedFrame any = prepare_frame(compiled, view, one.statistics().tolerance);

@@ -32,9 +32,7 @@ Scene scene_of(const std::vector<Shape>& shapes) {
 Scene two_of(const Shape& a, const Shape& b) {
     Scene scene = scene_of({a, b});
     for (const bool joined : {false, true}) {
-        Combination region;
-        region.name = joined ? "joined" : "rest";
-        region.region = true;
+        Combination region{.name = joined ? "joined" : "rest", .region = true};
         region.tree = operate(joined ? Operator::union_ : Operator::difference, {leaf("s1"), leaf("s0")});
         scene.objects.push_back(region);
     }

@@ -24,25 +24,17 @@ constexpr int picture_size = 128;
 constexpr std::uint64_t seeds = 3;  // of each family
 
 int compare_models(const Settings& settings) {
-    const std::string folder = test::folder("CSGRT_BRLCAD");
-    if (folder.empty()) {
-        WARN("CSGRT_BRLCAD names no folder of models: none compared");
-        return 0;
-    }
-    int count = 0;
-    for (const test::Model& model : models()) {
-        if (!model.main && model.file != "goliath.asc") continue;
+    const std::vector<test::Model> few = models_there(true);
+    for (const test::Model& model : few) {
         INFO(model.file);
-        require_agreement(load_scene(folder + "/" + model.file), model.objects, picture_size, 1000, settings);
-        ++count;
+        require_agreement(load_scene(model.file), model.objects, picture_size, 1000, settings);
     }
-    REQUIRE(count == 6);
-    return count;
+    REQUIRE((few.empty() || few.size() == 6));
+    return static_cast<int>(few.size());
 }
 
 int compare_scenes(const Settings& settings) {
     const std::vector<std::string> files = scene_files();
-    if (files.empty()) WARN("CSGRT_SCENES names no folder of scenes: none compared");
     FewPrograms programs;
     for (const std::string& file : files) {
         INFO(file);
@@ -55,17 +47,13 @@ int compare_scenes(const Settings& settings) {
 
 /// The rays that a stress scene is made for, and its pictures.
 void require_stress(const stress::StressScene& made, const Settings& settings) {
-    Settings by_reference;
-    by_reference.reference = true;
-    by_reference.air = made.air;
+    Settings by_reference{.reference = true, .air = made.air};
     Settings by_device = settings;
     by_device.air = made.air;
     Renderer reference(made.scene, made.objects, by_reference), device(made.scene, made.objects, by_device);
     require_same(device.shoot(made.rays), reference.shoot(made.rays));
     for (const bool every : {true, false}) {
-        View view;
-        view.width = view.height = 48;
-        view.every_partition = every;
+        View view{.width = 48, .height = 48, .every_partition = every};
         require_same(device.render(view), reference.render(view));
     }
 }
@@ -111,9 +99,7 @@ TEST_CASE("every device gives the reference's bits", "[.vendors][promise:bits]")
             using clock = std::chrono::steady_clock;
             const auto start = clock::now();
             const auto seconds = [start] { return std::chrono::duration<double>(clock::now() - start).count(); };
-            Settings settings;
-            settings.device = std::to_string(number);
-            settings.wait_for_device = true;
+            Settings settings{.device = std::to_string(number), .wait_for_device = true};
             const int models = compare_models(settings);
             const double until_scenes = seconds();
             const int scenes = compare_scenes(settings);

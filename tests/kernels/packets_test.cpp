@@ -54,11 +54,9 @@ std::string scene() {
 
 TEST_CASE("first hits agree at every width, where cones are steep and where rays have no room", "[agreement]") {
     const Scene parsed = scene_of(scene());
-    Settings by_reference;
-    by_reference.reference = true;
+    Settings by_reference{.reference = true};
     Renderer reference(parsed, {}, by_reference), device(parsed, {}, test::on_device());
-    View view;
-    view.every_partition = false;
+    View view{.every_partition = false};
     int overflows = 0;  // pictures some of whose rays had no room
     constexpr int large = test::sanitized ? 40 : 96;
     for (const double elevation : {90.0, 60.0, 15.0})
@@ -91,11 +89,9 @@ TEST_CASE("first hits of a scene larger than a processor's caches agree", "[agre
         parsed.top.push_back(ball.name);
         parsed.objects.push_back(std::move(ball));
     }
-    Settings by_reference;
-    by_reference.reference = true;
+    Settings by_reference{.reference = true};
     Renderer reference(parsed, {}, by_reference), device(parsed, {}, test::on_device());
-    View view;
-    view.every_partition = false;
+    View view{.every_partition = false};
     view.width = test::sanitized ? 12 : 61;
     view.height = test::sanitized ? 9 : 37;
     int overflows = 0;

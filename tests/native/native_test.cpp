@@ -87,18 +87,13 @@ TEST_CASE("the native device has the kernels of the default method and says so o
 TEST_CASE("the native device draws the same bits with any number of threads", "[device][promise:bits]") {
     if (!have_native()) return;
     const Scene scene = bench::scene_of_parts(60);
-    Settings settings;
-    settings.device = "native";
-    settings.threads = 1;
+    Settings settings{.device = "native", .threads = 1};
     Renderer one(scene, {}, settings);
     const std::vector<Ray> rays = test::random_rays(one.model().bounds(), 2000);
     settings.threads = GENERATE(2u, 5u);
     Renderer several(scene, {}, settings);
     for (const bool every : {false, true}) {
-        View view;
-        view.width = 203;
-        view.height = 157;
-        view.every_partition = every;
+        View view{.width = 203, .height = 157, .every_partition = every};
         test::require_same(one.render(view), several.render(view));
     }
     test::require_same(one.shoot(rays), several.shoot(rays));
@@ -107,10 +102,8 @@ TEST_CASE("the native device draws the same bits with any number of threads", "[
 TEST_CASE("native devices draw for several renderers at once", "[device][promise:models]") {
     if (!have_native()) return;
     const Scene scene = bench::scene_of_parts(60);
-    Settings settings;
-    settings.device = "native";
-    View view;
-    view.width = view.height = 150;
+    Settings settings{.device = "native"};
+    View view{.width = 150, .height = 150};
     const Image alone = Renderer(scene, {}, settings).render(view);
     std::vector<Image> images(3);
     std::vector<std::thread> threads;

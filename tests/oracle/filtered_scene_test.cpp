@@ -56,9 +56,7 @@ TEST_CASE("scenes give the same with the filter and in 113 bits", "[oracle]") {
             continue;
         const Scene scene = load_scene(entry.path().string());
         const SceneOracle filtered(scene, {}, true, true), full(scene, {}, true);
-        Settings settings;
-        settings.reference = true;
-        settings.skip_unsupported = true;
+        Settings settings{.reference = true, .skip_unsupported = true};
         const Box box = Renderer(scene, {}, settings).model().bounds();
         const bool bounded = std::isfinite(box.high.x - box.low.x);
         const Vec3 low = bounded ? box.low : Vec3{-9, -9, -9}, high = bounded ? box.high : Vec3{9, 9, 9};

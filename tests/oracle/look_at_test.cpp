@@ -7,9 +7,7 @@
 using namespace csgrt;
 
 TEST_CASE("the oracle finds two roots that are close together where it looks") {
-    Metaball shape;
-    shape.method = Metaball::Method::isopotential;
-    shape.threshold = 1;
+    Metaball shape{.method = Metaball::Method::isopotential, .threshold = 1};
     shape.points = {{{-2.47340043068427e-4, -8.9076974689717987e-4, 3.3846548940938078e-4}, 4.6876705360610944e-4, 1},
                     {{-3.5763384235789741e-4, -9.241445500424646e-4, -4.199809624825073e-4}, 4.9814925172463433e-4, 1},
                     {{4.2879559920121197e-4, -1.5407897316459182e-3, 6.720189204847001e-4}, 4.959111746363383e-4, 1}};

@@ -21,9 +21,7 @@ TreeNode leaf(const std::string& object, const Matrix& matrix = identity) {
 }
 TreeNode node(Operator op, std::uint32_t arity) { return {op, arity, {}, identity, {}}; }
 Combination combination(const std::string& name, bool region, std::vector<TreeNode> nodes) {
-    Combination c;
-    c.name = name;
-    c.region = region;
+    Combination c{.name = name, .region = region};
     c.tree.nodes = std::move(nodes);
     return c;
 }
@@ -148,8 +146,7 @@ TEST_CASE("scene oracle: a ray along a face of cells, where another face may dec
     vol.low = 1;
     vol.high = 255;
     vol.cells = {9, 9, 9, 9, 9, 0, 9, 0};
-    Scene scene;
-    scene.objects = {Solid{"v", vol, {}}, combination("r", true, {leaf("v")})};
+    Scene scene{.objects = {Solid{"v", vol, {}}, combination("r", true, {leaf("v")})}};
     const SceneOracle oracle(scene, {"r"});
     const SceneAnswer inside = oracle.shoot({{-5, 0.5, 0.5}, {1, 0, 0}}, 0);
     const SceneAnswer between = oracle.shoot({{-5, 0.5, 1}, {1, 0, 0}}, 0);
@@ -194,8 +191,7 @@ TEST_CASE("scene judge: on an edge the normal of either face will do, and no oth
               {}},
         combination("r", true, {leaf("roof")})};
     const SceneOracle oracle(scene, {"r"});
-    RegionInfo region;
-    region.path = "/r";
+    RegionInfo region{.path = "/r"};
     const SceneJudge judge(oracle, {region}, 0);
     const auto fault = [&](const Vec3& normal) {
         const RayPartitions found{{{5, 6, normal, {0, 0, -1}, 0, 0, 0}}, {}};
@@ -239,8 +235,7 @@ TEST_CASE("scene judge: of a ray in an end face, what lies across the axis is no
         "combinations": {"r": {"region": true, "tree": {"difference": ["box", "ring"]}}}})",
                                     "ring.json");
     const SceneOracle oracle(scene, {"r"});
-    RegionInfo region;
-    region.path = "/r";
+    RegionInfo region{.path = "/r"};
     const SceneJudge judge(oracle, {region}, 0);
     const auto fault = [&](std::vector<Partition> partitions) {
         std::size_t ties = 0;

@@ -81,14 +81,10 @@ struct Answers {
 };
 
 Answers ask(const Subject& subject, int size, bool reference) {
-    Settings settings;
-    settings.reference = reference;
-    settings.device = reference ? "" : "native";
-    settings.air = subject.air;
+    Settings settings{.reference = reference, .device = reference ? "" : "native", .air = subject.air};
     Renderer renderer(subject.scene, subject.objects, settings);
     Answers answers;
-    View view;
-    view.width = view.height = size;
+    View view{.width = size, .height = size};
     if (subject.rays.empty()) {
         answers.partitions = hash_of(renderer.render(view));
         view.every_partition = false;

@@ -34,12 +34,7 @@ std::vector<Ray> rays_through(const Box& box, std::size_t count, Random& random)
     return rays;
 }
 
-Settings on_reference() {
-    Settings settings;
-    settings.reference = true;
-    settings.threads = 1;
-    return settings;
-}
+Settings on_reference() { return {.reference = true, .threads = 1}; }
 
 /// Shoots `count` rays at the objects and judges them.
 void check_scene(const Scene& scene, const std::vector<std::string>& objects, std::size_t count, std::uint64_t seed) {
@@ -102,9 +97,7 @@ private:
         return {a.x, b.x, c.x, t.x, a.y, b.y, c.y, t.y, a.z, b.z, c.z, t.z, 0, 0, 0, 1};
     }
     std::string add_combination(const std::vector<std::string>& from, bool region, std::size_t leaves) {
-        Combination c;
-        c.name = (region ? "r" : "top") + std::to_string(scene_.objects.size());
-        c.region = region;
+        Combination c{.name = (region ? "r" : "top") + std::to_string(scene_.objects.size()), .region = region};
         const auto leaf = [&] {
             c.tree.nodes.push_back({Operator::leaf, 0, from[random_.below(from.size())], matrix(), {}});
         };
@@ -133,12 +126,7 @@ private:
 }  // namespace
 
 TEST_CASE("scenes agree with the oracle along rays", "[pipeline][oracle][promise:booleans][promise:partitions]") {
-    const std::vector<std::string> files = test::scene_files();
-    if (files.empty()) {
-        WARN("no scenes: CSGRT_SCENES is not set");
-        return;
-    }
-    for (const std::string& file : files) {
+    for (const std::string& file : test::scene_files()) {
         INFO(file);
         const Scene scene = load_scene(file);
         check_scene(scene, {}, scene.objects.size() > 300 ? 40 : 200, 21);
@@ -188,14 +176,9 @@ TEST_CASE("many random scenes agree with the oracle along rays", "[.long][promis
 }
 
 TEST_CASE("BRL-CAD's models agree with the oracle along rays", "[.long]") {
-    const std::string models = test::folder("CSGRT_BRLCAD");
-    if (models.empty()) {
-        WARN("no models: CSGRT_BRLCAD is not set");
-        return;
-    }
-    for (const test::Model& model : test::models()) {
+    for (const test::Model& model : test::models_there()) {
         INFO(model.file);
-        check_scene(load_scene(models + "/" + model.file), model.objects, 300, 22);
+        check_scene(load_scene(model.file), model.objects, 300, 22);
     }
 }
 

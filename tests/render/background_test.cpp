@@ -12,8 +12,7 @@ TEST_CASE("the background is opaque, or with View::transparent nothing; `region`
           "[promise:colors]") {
     Scene scene = bench::scene_of_parts(20);
     scene.background = {0.2, 0.5, 1};
-    Settings by_reference;
-    by_reference.reference = true;
+    Settings by_reference{.reference = true};
     Renderer renderer(scene, {}, test::on_device()), reference(scene, {}, by_reference);
     View view{.width = 99, .height = 77};
     view.every_partition = GENERATE(true, false);

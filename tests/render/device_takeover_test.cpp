@@ -38,9 +38,7 @@ bool can_take_over() {
 }
 
 View view_from(double azimuth, bool every_partition) {
-    View view;
-    view.width = 83;
-    view.height = 61;
+    View view{.width = 83, .height = 61};
     view.camera.azimuth = azimuth;
     view.every_partition = every_partition;
     return view;
@@ -80,8 +78,7 @@ void wait_for_job(const DeviceTakeover& takeover) {
 TEST_CASE("frames before, while and after a GPU takes over have the same bits", "[promise:devices]") {
     if (!can_take_over()) return;
     const Scene scene = bench::scene_of_parts(20);
-    Settings settings;
-    settings.device = "native";
+    Settings settings{.device = "native"};
     Renderer native(scene, {}, settings);
     const std::string gpu_name = pocl_devices()[0].info.name, native_name = native.statistics().device;
     const bool by_name = GENERATE(false, true);
@@ -119,9 +116,7 @@ TEST_CASE("where an edit brings a new type of solid, the native device draws unt
     if (!can_take_over()) return;
     const std::string gpu_name = pocl_devices()[0].info.name;
     const PretendedGpu gpu(pocl);
-    Settings settings;
-    settings.device = "gpu";
-    settings.wait_for_device = true;
+    Settings settings{.device = "gpu", .wait_for_device = true};
     const View view = view_from(35, false);
     Scene scene;
     scene.objects.push_back(Solid{"ball", Ell{{}, {9, 0, 0}, {0, 9, 0}, {0, 0, 9}}, {}});
@@ -133,8 +128,7 @@ TEST_CASE("where an edit brings a new type of solid, the native device draws unt
             .commit();
     };
     const csgrt::Model ball(scene), ring = with_ring(ball);
-    Settings on_native;
-    on_native.device = "native";
+    Settings on_native{.device = "native"};
     Renderer native(ring, on_native);
     const Image expected = native.render(view);
     Renderer waits(ball, settings);
@@ -166,9 +160,7 @@ TEST_CASE("who waits for a GPU has it from the first frame on", "[promise:device
     const PretendedGpu gpu(pocl);
     for (const char* choice : {"", "gpu"}) {
         INFO("device " << choice);
-        Settings settings;
-        settings.device = choice;
-        settings.wait_for_device = true;
+        Settings settings{.device = choice, .wait_for_device = true};
         Renderer renderer(scene, {}, settings);
         CHECK(renderer.statistics().device == gpu_name);
         for (const bool every : {false, true}) {
@@ -333,8 +325,7 @@ TEST_CASE("a command whose picture is drawn does not wait for a compiler", "[.le
 
 TEST_CASE("a process that awaits no compiler ends as usual") {
     if (find_native_devices().empty()) return;
-    Settings settings;
-    settings.device = "native";
+    Settings settings{.device = "native"};
     {
         cli::HeldRenderer renderer(Renderer(bench::scene_of_parts(5), {}, settings));
         renderer->render(view_from(35, true));

@@ -25,9 +25,7 @@ TEST_CASE("a device that never answers ends the call in time, and its Renderer i
     if (test::sanitized) return;  // what a lost device holds stays, which is a leak to it
     FaultyOpenCl faulty(native::functions());
     const NativeTable table(&faulty.functions());
-    Settings settings;
-    settings.device = "native";
-    settings.threads = 2;
+    Settings settings{.device = "native", .threads = 2};
     settings.device_timeout = timeout;
     const Scene scene = bench::scene_of_parts(6);
     View every{.width = 40, .height = 24}, first = every;

@@ -16,10 +16,7 @@ using Bytes = std::vector<unsigned char>;
 
 /// One row; the colours are gray.
 Image row(const std::vector<float>& values, const std::vector<float>& alpha = {}) {
-    Image image;
-    image.width = static_cast<int>(values.size());
-    image.height = 1;
-    image.names = {"R", "G", "B"};
+    Image image{.width = static_cast<int>(values.size()), .height = 1, .names = {"R", "G", "B"}};
     std::vector<std::vector<float>> channels(3, values);
     if (!alpha.empty()) {
         image.names.emplace_back("A");

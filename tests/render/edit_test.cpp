@@ -308,17 +308,12 @@ TEST_CASE("after random edits a model is the one that is compiled from the edite
 }
 
 TEST_CASE("the same on BRL-CAD's models: 500 edits", "[.long]") {
-    const std::string folder = test::folder("CSGRT_BRLCAD");
-    if (folder.empty()) {
-        WARN("CSGRT_BRLCAD is not set: no models are edited");
-        return;
-    }
     std::mt19937 random(500);
     int commits = 0;
-    for (const test::Model& of : test::models()) {
-        if (!of.main && of.file != "goliath.asc") continue;
-        if (!std::filesystem::exists(folder + "/" + of.file)) continue;
-        Scene scene = load_scene(folder + "/" + of.file);
+    const std::vector<test::Model> few = test::models_there(true);
+    if (few.empty()) return;
+    for (const test::Model& of : few) {
+        Scene scene = load_scene(of.file);
         scene.top = of.objects;  // the edited scene's own, where an edit removes one
         Model model(std::move(scene));
         for (int done = 0; done < test::tries(100);) {

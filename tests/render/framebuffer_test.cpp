@@ -15,9 +15,7 @@ namespace {
 View view_of(const Renderer& renderer, int width, int height, double azimuth, double shift, double zoom) {
     const Box& box = renderer.model().bounds();
     const double size = box.high.x - box.low.x;
-    View view;
-    view.width = width;
-    view.height = height;
+    View view{.width = width, .height = height};
     view.camera.azimuth = azimuth;
     view.camera.center = Vec3{0.5 * (box.low.x + box.high.x) + shift * size, 0.5 * (box.low.y + box.high.y), box.low.z};
     view.camera.view_size = 1.5 * size / zoom;
@@ -39,8 +37,7 @@ void require_redrawn(Renderer& renderer, Framebuffer& framebuffer, const View& v
 TEST_CASE("a framebuffer holds the last frame alone", "[promise:models]") {
     Scene scene = bench::scene_of_parts(20);
     Renderer renderer(scene, {}, test::on_device());
-    Settings by_reference;
-    by_reference.reference = true;
+    Settings by_reference{.reference = true};
     Renderer reference(scene, {}, by_reference);
     scene.background = {0.2, 0.3, 0.4};
     Renderer other(scene, {}, test::on_device());

@@ -14,12 +14,7 @@ using test::FaultyOpenCl;
 
 namespace {
 
-Settings checked(unsigned every) {
-    Settings settings;
-    settings.device = "native";
-    settings.check = every;
-    return settings;
-}
+Settings checked(unsigned every) { return {.device = "native", .check = every}; }
 
 View view_of(bool every_partition) {
     View view{.width = 48, .height = 40};

@@ -10,8 +10,7 @@ using namespace csgrt;
 
 TEST_CASE("a call's time and the building of its kernels are told apart") {
     Renderer renderer(bench::scene_of_parts(20), {}, test::on_device());
-    View view;
-    view.width = view.height = 8;
+    View view{.width = 8, .height = 8};
     for (const bool every_partition : {false, true}) {
         view.every_partition = every_partition;
         const double before = renderer.statistics().ms.build;
@@ -33,8 +32,7 @@ TEST_CASE(
     "it",
     "[promise:pictures]") {
     Renderer renderer(bench::scene_of_parts(20), {}, test::on_device());
-    View view;
-    view.width = view.height = 32;
+    View view{.width = 32, .height = 32};
     const Image image = renderer.render(view);
     const Statistics every = renderer.statistics();
     std::uint64_t segments = 0, partitions = 0, overlaps = 0;

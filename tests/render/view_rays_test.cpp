@@ -14,12 +14,7 @@ using namespace csgrt::stress;
 
 namespace {
 
-Settings on_reference() {
-    Settings settings;
-    settings.reference = true;
-    settings.threads = 1;
-    return settings;
-}
+Settings on_reference() { return {.reference = true, .threads = 1}; }
 
 Scene scene_of(Shape shape) {
     Scene scene;
@@ -31,9 +26,7 @@ double length(const Vec3& v) { return std::sqrt(dot(v, v)); }
 bool close(const Vec3& a, const Vec3& b) { return length(a - b) < 1e-12 * (1 + length(a)); }
 
 View looking(double azimuth, double elevation, int width, int height) {
-    View view;
-    view.width = width;
-    view.height = height;
+    View view{.width = width, .height = height};
     view.camera.azimuth = azimuth;
     view.camera.elevation = elevation;
     return view;
@@ -104,12 +97,9 @@ TEST_CASE("a view shows the model's box, its sides moved outward to whole millim
     wide.camera.view_size = 5;
     CHECK(shown_height(renderer, wide) == Approx(5));
 
-    Scene scene;
-    scene.objects = {Solid{"a", box({0, 0, 0}, {8, 8, 8}), {}}, Solid{"b", box({-9, 1, 1}, {4, 20, 20}), {}}};
+    Scene scene{.objects = {Solid{"a", box({0, 0, 0}, {8, 8, 8}), {}}, Solid{"b", box({-9, 1, 1}, {4, 20, 20}), {}}}};
     const auto add = [&](const char* name, Tree tree) {
-        Combination region;
-        region.name = name;
-        region.region = true;
+        Combination region{.name = name, .region = true};
         region.tree = std::move(tree);
         scene.objects.push_back(region);
     };

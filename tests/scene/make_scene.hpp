@@ -28,16 +28,10 @@ inline Tree union_of(const std::vector<std::string>& names) {
 }
 
 inline Object combination(std::string name, Tree tree) {
-    Combination made;
-    made.name = std::move(name);
-    made.tree = std::move(tree);
+    Combination made{.name = std::move(name), .tree = std::move(tree)};
     return made;
 }
 
-inline Scene make_scene(std::vector<Object> objects) {
-    Scene scene;
-    scene.objects = std::move(objects);
-    return scene;
-}
+inline Scene make_scene(std::vector<Object> objects) { return {.objects = std::move(objects)}; }
 
 }  // namespace csgrt

@@ -18,11 +18,7 @@ Scene ball(Vec3 center) {
     return scene;
 }
 
-Settings on_reference() {
-    Settings settings;
-    settings.reference = true;
-    return settings;
-}
+Settings on_reference() { return {.reference = true}; }
 
 bool same(const Ray& a, const Ray& b) { return a.origin == b.origin && a.direction == b.direction; }
 

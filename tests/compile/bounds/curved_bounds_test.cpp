@@ -192,9 +192,7 @@ TEST_CASE("the box of a metaball holds it, and not much more") {
     using Method = Metaball::Method;
     for (const Method method : {Method::metaball, Method::isopotential, Method::blob}) {
         const Matrix m = random.matrix();
-        Metaball ball;
-        ball.method = method;
-        ball.threshold = 0.5;
+        Metaball ball{.method = method, .threshold = 0.5};
         for (int i = 0; i < 3; ++i) ball.points.push_back({narrow(random.wide()), random(0.4, 0.9), random(0.5, 2)});
         Box around = empty_box;
         constexpr int steps = test::sanitized ? 45 : 90;

@@ -71,10 +71,8 @@ double depth(const std::vector<Stretch>& stretches, const Vec3& p) {
 
 void check_pipe(const Pipe& pipe, std::uint32_t seed) {
     const std::vector<Stretch> stretches = stretches_of(pipe);
-    Scene scene;
-    scene.objects = {Solid{"hose", pipe, {}}};
-    Settings settings;
-    settings.reference = true;
+    Scene scene{.objects = {Solid{"hose", pipe, {}}}};
+    Settings settings{.reference = true};
     Renderer renderer(scene, {}, settings);
     std::mt19937_64 random(seed);
     const auto between = [&](double a, double b) { return std::uniform_real_distribution<double>(a, b)(random); };
@@ -130,10 +128,8 @@ TEST_CASE("pipes: cones and bends, solid, hollow, tapered, straight", "[promise:
 
 TEST_CASE("a cline is a cylinder, with a bore if it has a thickness", "[promise:solids]") {
     for (const double thickness : {0.0, 3.0}) {
-        Scene scene;
-        scene.objects = {Solid{"line", Cline{{0, 0, -40}, {0, 0, 80}, 18, thickness}, {}}};
-        Settings settings;
-        settings.reference = true;
+        Scene scene{.objects = {Solid{"line", Cline{{0, 0, -40}, {0, 0, 80}, 18, thickness}, {}}}};
+        Settings settings{.reference = true};
         Renderer renderer(scene, {}, settings);
         const auto answers = renderer.shoot({{{-100, 0, 0}, {1, 0, 0}}, {{1, 2, -100}, {0, 0, 1}}});
         const auto& across = answers[0].partitions;

@@ -3,6 +3,7 @@
 #include <random>
 
 #include "catch.hpp"
+#include "compile/regions/flat_tree_value.hpp"
 #include "compile/regions/linearize.hpp"
 #include "sanitized.hpp"
 
@@ -11,39 +12,6 @@ using namespace csgrt;
 namespace {
 
 using Values = std::vector<bool>;  // one a solid
-
-/// Plain evaluation, node by node.
-bool evaluate(const FlatTree& tree, const Values& values) {
-    std::vector<bool> stack;
-    for (const FlatTree::Node& node : tree.nodes) {
-        if (node.op == Operator::leaf) {
-            stack.push_back(values[node.solid]);
-            continue;
-        }
-        const std::vector<bool> operands(stack.end() - node.arity, stack.end());
-        stack.resize(stack.size() - node.arity);
-        bool value = operands[0];
-        for (std::size_t i = 1; i < operands.size(); ++i) {
-            switch (node.op) {
-                case Operator::union_:
-                    value = value || operands[i];
-                    break;
-                case Operator::intersection:
-                    value = value && operands[i];
-                    break;
-                case Operator::difference:
-                    value = value && !operands[i];
-                    break;
-                default:
-                    value = value != operands[i];
-                    break;
-            }
-        }
-        stack.push_back(node.op == Operator::not_ ? !value : value);
-    }
-    REQUIRE(stack.size() == 1);
-    return stack[0];
-}
 
 /// The kernels' walk.
 struct Walk {
@@ -166,7 +134,7 @@ void check_all_assignments(const FlatTree& tree, std::uint32_t solids) {
     for (std::uint32_t bits = 0; bits < 1u << solids; ++bits) {
         Values values(solids);
         for (std::uint32_t i = 0; i < solids; ++i) values[i] = bits >> i & 1u;
-        REQUIRE(walk(linear.first_word, values) == evaluate(tree, values));
+        REQUIRE(walk(linear.first_word, values) == test::value_of(tree, values));
     }
     CHECK(walk.deepest <= linear.stack);
     CHECK(std::all_of(words.begin() + linear.first_word, words.end(),
@@ -238,7 +206,7 @@ TEST_CASE("random trees: the walk over the words gives what the tree gives, for 
     for (int round = 0; round < rounds; ++round) {
         const std::uint32_t solids = 1 + random.below(round % 100 == 0 ? 12 : 6);
         FlatTree tree = random_tree(random, 1 + random.below(12), solids);
-        const bool outside = evaluate(tree, Values(solids, false));
+        const bool outside = test::value_of(tree, Values(solids, false));
         if (outside) {
             ++complements;
             tree = complement(std::move(tree));
@@ -273,7 +241,7 @@ TEST_CASE("chains of 100,000 need a stack of one or two, however they are nested
                 for (std::size_t i = 0; i < values.size(); ++i) values[i] = random.below(round < 4 ? 2 : 1000) == 0;
                 if (round == 7) values.assign(count + 1, true);
                 // Nested to the right, plain evaluation of the postfix order needs a deep operand stack, no recursion.
-                REQUIRE(walk(0, values) == evaluate(tree, values));
+                REQUIRE(walk(0, values) == test::value_of(tree, values));
             }
             CHECK(walk.deepest == linear.stack);
         }
@@ -286,7 +254,7 @@ TEST_CASE("the recorded stack is what some ray needs, and at most log2 of the le
     for (int round = 0; round < test::tries(300); ++round) {
         const std::uint32_t leaves = 1 + random.below(400);
         FlatTree tree = random_tree(random, leaves, leaves);
-        if (evaluate(tree, Values(leaves, false))) tree = complement(std::move(tree));
+        if (test::value_of(tree, Values(leaves, false))) tree = complement(std::move(tree));
         std::vector<std::uint32_t> words;
         const LinearTree linear = linearize(tree, words);
         REQUIRE(1u << linear.stack <= leaves);

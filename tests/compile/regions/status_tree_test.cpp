@@ -4,6 +4,7 @@
 #include <random>
 
 #include "catch.hpp"
+#include "compile/regions/flat_tree_value.hpp"
 #include "compile/regions/linearize.hpp"
 #include "compile/regions/status_tree.hpp"
 #include "sanitized.hpp"
@@ -32,24 +33,6 @@ CompiledScene scene_of(const std::vector<FlatTree>& trees, std::uint32_t solids)
         scene.flat_trees.push_back(tree);
     }
     return scene;
-}
-
-bool evaluate(const FlatTree& tree, const std::vector<bool>& covers) {
-    std::vector<bool> stack;
-    for (const FlatTree::Node& node : tree.nodes) {
-        if (node.op == Operator::leaf) {
-            stack.push_back(covers[node.solid]);
-            continue;
-        }
-        const bool right = stack.back();
-        stack.pop_back();
-        const bool left = stack.back();
-        stack.back() = node.op == Operator::union_         ? left || right
-                       : node.op == Operator::intersection ? left && right
-                       : node.op == Operator::difference   ? left && !right
-                                                           : left != right;
-    }
-    return stack[0];
 }
 
 constexpr Operator operators[] = {Operator::union_, Operator::intersection, Operator::difference, Operator::xor_};
@@ -99,7 +82,7 @@ struct Kept {
     void require_right() const {
         std::uint32_t from = 0;
         for (std::uint32_t region = 0; region < regions(); ++region) {
-            if (!evaluate(scene.flat_trees[region], covers)) continue;
+            if (!test::value_of(scene.flat_trees[region], covers)) continue;
             REQUIRE(kernel::member_from(claimed.data(), regions(), from) == region);
             from = region + 1;
         }

@@ -2,6 +2,7 @@
 #include <random>
 
 #include "catch.hpp"
+#include "compile/regions/flat_tree_value.hpp"
 #include "compile/regions/linearize.hpp"
 #include "compile/regions/terms.hpp"
 #include "kernels/host_kernels.hpp"
@@ -27,24 +28,6 @@ void add_tree(FlatTree& tree, std::uint32_t leaves, std::uint32_t solids, Random
     constexpr Operator operators[] = {Operator::union_, Operator::intersection, Operator::difference,
                                       Operator::difference, Operator::xor_};
     tree.nodes.push_back({operators[random.below(5)], 2, 0});
-}
-
-bool value_of(const FlatTree& tree, const std::vector<bool>& covered) {
-    std::vector<bool> values;
-    for (const FlatTree::Node& node : tree.nodes) {
-        if (node.op == Operator::leaf) {
-            values.push_back(covered[node.solid]);
-            continue;
-        }
-        const bool b = values.back();
-        values.pop_back();
-        const bool a = values.back();
-        values.back() = node.op == Operator::union_         ? a || b
-                        : node.op == Operator::intersection ? a && b
-                        : node.op == Operator::difference   ? a && !b
-                                                            : a != b;
-    }
-    return values.back();
 }
 
 }  // namespace
@@ -82,7 +65,7 @@ TEST_CASE("a term's value is its tree's, whether it is scanned, walked or told b
                                       records.data(),    nullptr,     words.data()};
             kernel::covered_solids list;
             kernel::list_covered(cover, &list);
-            const bool expected = value_of(tree, covered);
+            const bool expected = test::value_of(tree, covered);
             REQUIRE(bool(kernel::scan_term(cover, &list, 0, end)) == expected);
             REQUIRE(bool(kernel::walk_term(cover, 0, end)) == expected);
             ++(expected ? held : not_held);
@@ -115,10 +98,10 @@ TEST_CASE("where a term begins to be true, its solids say that it may") {
         for (int shot = 0; shot < 40; ++shot) {
             std::vector<bool> covered(solids);
             for (std::uint32_t s = 0; s < solids; ++s) covered[s] = random.below(2);
-            if (value_of(tree, covered)) continue;
+            if (test::value_of(tree, covered)) continue;
             for (std::uint32_t s = 0; s < solids; ++s) {
                 covered[s] = !covered[s];
-                if (value_of(tree, covered)) {
+                if (test::value_of(tree, covered)) {
                     REQUIRE(records[s].begins & (covered[s] ? BEGINS_AT_ENTRY : BEGINS_AT_EXIT));
                     ++began;
                 }
@@ -154,7 +137,7 @@ TEST_CASE("what claims where a solid alone covers is known, or said not to be") 
             covered[s] = true;
             std::uint32_t expected = NONE;
             for (std::uint32_t region = 0; region < trees.size(); ++region) {
-                if (!value_of(trees[region], covered)) continue;
+                if (!test::value_of(trees[region], covered)) continue;
                 const auto rank = [&](std::uint32_t r) { return r < second ? 0 : r < third ? 1 : 2; };
                 if (expected == NONE) {
                     expected = region;

@@ -59,10 +59,7 @@ TEST_CASE("planes across an axis are shared as one by one, also with some that a
         scene.objects.push_back(Solid{name, stress::box(low, high), {}});
     };
     const auto region = [&](const std::string& name, const std::vector<Tree>& solids) {
-        Combination combination;
-        combination.name = name;
-        combination.tree = stress::operate(Operator::union_, solids);
-        combination.region = true;
+        Combination combination{.name = name, .tree = stress::operate(Operator::union_, solids), .region = true};
         members.push_back(stress::leaf(name));
         scene.objects.push_back(std::move(combination));
     };

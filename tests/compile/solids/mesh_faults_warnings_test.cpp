@@ -5,19 +5,13 @@
 #include "compile/compiled_scene.hpp"
 #include "compile/solids/meshes/mesh_repair.hpp"
 #include "compile/model.hpp"
+#include "scene/faults/check_faults.hpp"
 #include "scene/warning_texts.hpp"
 
 using namespace csgrt;
 using namespace csgrt::test;
 
 namespace {
-
-Bot tetrahedron() {
-    Bot bot;
-    bot.vertices = {{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {0, 0, 4}};
-    bot.faces = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
-    return bot;
-}
 
 /// From 0 to 1 and from `from` to 2 along x; both have the side between them if they touch.
 Bot two_boxes(double from) {

@@ -107,8 +107,7 @@ TEST_CASE("meshes: what is not closed leaves a crossing over, which claims nothi
     const auto segments = intersect_solid(one, 0, down);
     REQUIRE(segments.size() == 1);
     CHECK(segments[0].in == segments[0].out);
-    Settings settings;
-    settings.reference = true;
+    Settings settings{.reference = true};
     Renderer renderer(scene({solid("s", open), region("r", {leg("s")})}), {"r"}, settings);
     CHECK(renderer.shoot({down})[0].partitions.empty());
     CHECK(renderer.shoot({{{5, 0.1, 0.3}, {-1, 0, 0}}})[0].partitions.size() == 1);
@@ -133,8 +132,7 @@ TEST_CASE("meshes: with gaps, an in and the very next out are a pair if the tria
         return open;
     };
     const auto lengths = [&](const Bot& one, const Ray& ray, const Matrix& matrix = identity) {
-        Settings settings;
-        settings.reference = true;
+        Settings settings{.reference = true};
         Renderer renderer(scene({solid("s", one), region("r", {leg("s", matrix)})}), {"r"}, settings);
         std::vector<std::pair<double, double>> all;
         const std::vector<RayPartitions> answer = renderer.shoot({ray});

@@ -78,9 +78,7 @@ TEST_CASE("what shares a side leaves no skin, with no tolerance at all", "[compi
     ring.tree.nodes = {leaf("s0"), leaf("s2"), {Operator::difference, 2, {}, identity, {}}};
     scene.objects.push_back(nothing);
     scene.objects.push_back(ring);
-    Settings settings;
-    settings.reference = true;
-    settings.tolerance_rule = Tolerance::none;
+    Settings settings{.reference = true, .tolerance_rule = Tolerance::none};
     std::vector<Ray> across;
     for (int i = 0; i < 400; ++i)
         across.push_back(

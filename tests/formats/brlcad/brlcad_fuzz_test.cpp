@@ -56,40 +56,7 @@ const std::string fragments[] = {"{",         "}",     "\"",      "\\",  "\n",  
                                  "attr set ", "l c",   "M u c",   "N",   "X",   "G",           "V"};
 
 std::string mutated(const File& file, std::mt19937& random) {
-    std::string bytes = file.bytes;
-    const auto below = [&](std::size_t n) { return n == 0 ? 0 : static_cast<std::size_t>(random()) % n; };
-    for (std::size_t i = 0, changes = 1 + below(2); i < changes && !bytes.empty(); ++i) {
-        const std::size_t at = below(bytes.size()), length = below(std::min<std::size_t>(12, bytes.size() - at));
-        const std::string& fragment = fragments[below(std::size(fragments))];
-        switch (below(8)) {
-            case 0:
-                bytes.erase(at, length);
-                break;
-            case 1:
-                bytes.insert(at, fragment);
-                break;
-            case 2:
-                bytes.replace(at, length, fragment);
-                break;
-            case 3:
-                bytes[at] = static_cast<char>(random());
-                break;
-            case 4:
-                bytes.insert(below(bytes.size()), bytes.substr(at, length));
-                break;
-            case 5:
-                if (const std::size_t digit = bytes.find_first_of("0123456789", at); digit != std::string::npos)
-                    bytes[digit] = static_cast<char>('0' + below(10));
-                break;
-            case 6:  // one bit, so that lengths and counts of binary files stay near what they were
-                bytes[at] = static_cast<char>(bytes[at] ^ (1 << below(8)));
-                break;
-            default:
-                if (below(4) == 0) bytes.resize(at);
-                break;
-        }
-    }
-    return bytes;
+    return test::changed_at_random(file.bytes, fragments, 2, 12, random);
 }
 
 struct Tally {

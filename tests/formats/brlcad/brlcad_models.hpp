@@ -9,6 +9,7 @@
 #include <csgrt/scene.hpp>
 
 #include "catch.hpp"
+#include "integration/scenes.hpp"
 
 namespace csgrt::brlcad_test {
 
@@ -44,13 +45,7 @@ inline const Model models[] = {
     {"truck", 179, {{"comb", 182}, {"arb8", 125}, {"ell", 5}, {"tgc", 41}, {"tor", 11}}},
 };
 
-/// The folder of BRL-CAD's models; empty, with a word, if there is none.
-inline std::filesystem::path model_folder() {
-    const char* folder = std::getenv("CSGRT_BRLCAD");
-    if (folder != nullptr && std::filesystem::is_directory(folder)) return folder;
-    WARN("skipped: CSGRT_BRLCAD names no folder of BRL-CAD's models");
-    return {};
-}
+inline std::filesystem::path model_folder() { return test::folder("CSGRT_BRLCAD"); }
 
 /// Objects and regions of a scene are those of the model.
 inline void check_counts(const Scene& scene, const Model& model) {

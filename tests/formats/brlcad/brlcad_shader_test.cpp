@@ -85,9 +85,7 @@ TEST_CASE("one warning for each shader that is drawn as plastic, with how many h
     Scene scene;
     for (const char* shader :
          {"cloud", "glass tr=.5", "plastic", "cloud {thresh 1}", "light", "light {s 0}", "cloud"}) {
-        Combination region;
-        region.name = "r" + std::to_string(scene.objects.size());
-        region.finish = read_finish(shader);
+        Combination region{.name = "r" + std::to_string(scene.objects.size()), .finish = read_finish(shader)};
         scene.objects.push_back(region);
     }
     warn_of_shaders(scene);

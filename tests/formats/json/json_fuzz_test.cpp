@@ -18,71 +18,14 @@ const std::string& everything() {
     return text;
 }
 
-const char* const fragments[] = {"{",
-                                 "}",
-                                 "[",
-                                 "]",
-                                 ",",
-                                 ":",
-                                 "\"",
-                                 "null",
-                                 "true",
-                                 "-",
-                                 "1e999",
-                                 "NaN",
-                                 "0",
-                                 "1e308",
-                                 "-0",
-                                 "\\u0000",
-                                 "\\ud800",
-                                 "\xff",
-                                 "\"not\": ",
-                                 "{\"not\": ",
-                                 "\"s\"",
-                                 "\"c\"",
-                                 "\"f\"",
-                                 "[[[[[[[[",
-                                 "1e-400",
-                                 "{\"object\": \"f\"}",
-                                 "\"type\": \"tgc\"",
-                                 "9999999999999999999999",
-                                 "\n",
-                                 "//",
-                                 "\"\""};
+// clang-format off
+const std::string fragments[] = {
+    "{", "}", "[", "]", ",", ":", "\"", "null", "true", "-", "1e999", "NaN", "0", "1e308", "-0", "\\u0000",
+    "\\ud800", "\xff", "\"not\": ", "{\"not\": ", "\"s\"", "\"c\"", "\"f\"", "[[[[[[[[", "1e-400",
+    "{\"object\": \"f\"}", "\"type\": \"tgc\"", "9999999999999999999999", "\n", "//", "\"\""};
+// clang-format on
 
-std::string mutated(std::mt19937& random) {
-    std::string text = everything();
-    const auto below = [&](std::size_t n) { return static_cast<std::size_t>(random()) % n; };
-    for (std::size_t i = 0, changes = 1 + below(3); i < changes; ++i) {
-        const std::size_t at = below(text.size()), length = below(std::min<std::size_t>(40, text.size() - at));
-        switch (below(7)) {
-            case 0:
-                text.erase(at, length);
-                break;
-            case 1:
-                text.insert(at, fragments[below(std::size(fragments))]);
-                break;
-            case 2:
-                text.replace(at, length, fragments[below(std::size(fragments))]);
-                break;
-            case 3:
-                text[at] = static_cast<char>(random());
-                break;
-            case 4:
-                text.insert(below(text.size()), text.substr(at, length));
-                break;
-            case 5: {
-                const std::size_t digit = text.find_first_of("0123456789", at);
-                if (digit != std::string::npos) text[digit] = static_cast<char>('0' + below(10));
-                break;
-            }
-            default:
-                text.resize(at + 1);
-                break;
-        }
-    }
-    return text;
-}
+std::string mutated(std::mt19937& random) { return test::changed_at_random(everything(), fragments, 3, 40, random); }
 
 /// A number, name or bracket for another: far more of these are still JSON, and reach the readers behind the parser.
 std::string swapped_token(std::mt19937& random) {

@@ -14,6 +14,7 @@
 #include "formats/json/write/writer.hpp"
 #include "formats/json/random_shape.hpp"
 #include "formats/same_scene.hpp"
+#include "integration/scenes.hpp"
 #include "scene/make_scene.hpp"
 #include "sanitized.hpp"
 #include "thrown.hpp"
@@ -54,8 +55,7 @@ Tree random_tree(Numbers& n) {
 
 Scene random_scene(unsigned seed) {
     Numbers n(seed);
-    Scene scene;
-    scene.title = "a title with \"quotes\", \t and \u4e16\u754c";
+    Scene scene{.title = "a title with \"quotes\", \t and \u4e16\u754c"};
     const auto [name, length] = std::array{std::pair{"mm", 1.0}, std::pair{"in", 25.4}, std::pair{"m", 1000.0},
                                            std::pair{"cubit", 457.2}, std::pair{"in", 25.3}}[n.below(5)];
     scene.units = name;
@@ -104,11 +104,6 @@ Scene random_scene(unsigned seed) {
     }
     if (n.coin()) scene.top = {"object 3", "object 0"};
     return scene;
-}
-
-std::filesystem::path folder(const char* variable) {
-    const char* path = std::getenv(variable);
-    return path == nullptr ? "" : path;
 }
 
 }  // namespace
@@ -212,30 +207,20 @@ TEST_CASE("json round trip: what JSON cannot hold is refused, all of it at once"
 }
 
 TEST_CASE("json round trip: the examples") {
-    const std::filesystem::path scenes = folder("CSGRT_SCENES");
-    if (scenes.empty()) {
-        WARN("CSGRT_SCENES is not set: the examples are not read");
-        return;
-    }
-    int count = 0;
-    for (const auto& entry : std::filesystem::directory_iterator(scenes)) {
-        if (entry.path().extension() != ".json" || entry.path().filename() == "csgrt.schema.json") continue;
-        INFO(entry.path().filename());
-        const Scene scene = load_scene(entry.path().string());
+    const std::vector<std::string> files = test::scene_files();
+    for (const std::string& file : files) {
+        INFO(file);
+        const Scene scene = load_scene(file);
         CHECK(validate(scene).empty());
         CHECK_FALSE(scene.title.empty());
         check_round_trip(scene);
-        ++count;
     }
-    CHECK(count >= 12);
+    CHECK((files.empty() || files.size() >= 12));
 }
 
 TEST_CASE("json round trip: BRL-CAD's models", "[promise:round-trip]") {
-    const std::filesystem::path models = folder("CSGRT_BRLCAD");
-    if (models.empty() || !std::filesystem::exists(models)) {
-        WARN("CSGRT_BRLCAD is not set: BRL-CAD's models are not read");
-        return;
-    }
+    const std::string models = test::folder("CSGRT_BRLCAD");
+    if (models.empty()) return;
     for (const auto& entry : std::filesystem::directory_iterator(models)) {
         if (entry.path().extension() != ".asc" && entry.path().extension() != ".g") continue;
         // One form of each, and not the two greatest.

@@ -12,6 +12,7 @@
 #include "formats/json/scene_forms.hpp"
 #include "formats/json/write/schema.hpp"
 #include "formats/json/solids.hpp"
+#include "folder.hpp"
 
 using namespace csgrt;
 using nlohmann::json;
@@ -150,10 +151,8 @@ TEST_CASE("json schema: the file is what the descriptions make", "[promise:scene
         WARN("CSGRT_SCENES is not set: the schema is not read");
         return;
     }
-    std::ifstream file(schema_file());
-    const std::string text((std::istreambuf_iterator<char>(file)), {});
     INFO("cmake --build build --target schema makes it anew");
-    CHECK((text == json_schema_text()));
+    CHECK((test::read_file(schema_file()) == json_schema_text()));
 }
 
 TEST_CASE("json schema: made anew", "[.schema]") { std::ofstream(schema_file()) << json_schema_text(); }

@@ -175,8 +175,7 @@ TEST_CASE("json solids: angles are degrees where those give the bits") {
     CHECK(read<Revolve>(head + R"("radians": 1.5, )" + sketch).angle == 1.5);
     CHECK(test::says(complaint(head + R"("radians": 1.5, "angle": 90, )" + sketch), "not both"));
     const auto text = [](double angle) {
-        Revolve revolve;
-        revolve.angle = angle;
+        Revolve revolve{.angle = angle};
         return json_scene_text(make_scene({solid("s", revolve)}));
     };
     CHECK(test::says(text(2 * std::numbers::pi), "\"angle\": 360"));

@@ -78,8 +78,7 @@ TEST_CASE("an air region that the model lists first yields to what stands in it"
         on.air = true;
         return on;
     }());
-    View view;
-    view.width = view.height = 32;
+    View view{.width = 32, .height = 32};
     const Image picture = renderer.render(view);
     test::require_same(picture, device.render(view));
     CHECK(renderer.statistics().overlaps == 0);

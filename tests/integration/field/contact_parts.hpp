@@ -16,8 +16,7 @@ inline constexpr Matrix mirror = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, -1, 0, 0, 0, 0, 
 
 /// A closed line through points.
 inline Sketch polygon(const std::vector<Sketch::Point>& points) {
-    Sketch sketch;
-    sketch.vertices = points;
+    Sketch sketch{.vertices = points};
     const auto count = static_cast<std::uint32_t>(points.size());
     for (std::uint32_t i = 0; i < count; ++i) sketch.curves.emplace_back(Sketch::Line{i, (i + 1) % count});
     sketch.reversed.assign(count, 0);
@@ -131,8 +130,7 @@ inline Tree flat_part(Builder& to, std::size_t kind, const Matrix& place) {
         case 20:  // no outline of one convex piece: an arch
             return wall(polygon({{-3, 0}, {3, 0}, {3, -4}, {2, -4}, {2, -1}, {-2, -1}, {-2, -4}, {-3, -4}}));
         case 21: {  // straight above, round below
-            Sketch sketch;
-            sketch.vertices = {{-3, 0}, {3, 0}};
+            Sketch sketch{.vertices = {{-3, 0}, {3, 0}}};
             sketch.curves.emplace_back(Sketch::Line{0, 1});
             sketch.curves.emplace_back(Sketch::Arc{1, 0, 3, false, true});
             sketch.reversed.assign(2, 0);

@@ -30,9 +30,7 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 Tree broken_leg(Scene& scene, int way, const std::string& name) {
     const auto add = [&](Shape shape) { scene.objects.emplace_back(Solid{name, std::move(shape), {}}); };
     const auto add_combination = [&](Tree tree) {
-        Combination combination;
-        combination.name = name;
-        combination.tree = std::move(tree);
+        Combination combination{.name = name, .tree = std::move(tree)};
         scene.objects.emplace_back(std::move(combination));
     };
     const Matrix flat{1, 0, 0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 0, 0, 0, 1},

@@ -104,9 +104,7 @@ void check(const Count& count) {
 
 TEST_CASE("a ray through 300 balls of a metaball meets all of them", "[field]") {
     for (const Method method : methods) {
-        Metaball row;
-        row.method = method;
-        row.threshold = method == Method::metaball ? 0.5 : 1;
+        Metaball row{.method = method, .threshold = method == Method::metaball ? 0.5 : 1};
         for (int i = 0; i < 300; ++i) row.points.push_back({{10.0 * i, 0, 0}, 1, 1});
         const std::vector<oracle::Segment> found = kernel_answer(row, identity)({{-9, 0, 0}, {1, 0, 0}});
         REQUIRE(found.size() == 300);

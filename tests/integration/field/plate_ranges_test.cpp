@@ -20,8 +20,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 Scene thick_plates(Random& random) {
     Builder to("plates", random.next(), 1);
     for (int number = 0; number < 4; ++number) {
-        Bot bot;
-        bot.mode = number % 2 ? Bot::Mode::plate_nocos : Bot::Mode::plate;
+        Bot bot{.mode = number % 2 ? Bot::Mode::plate_nocos : Bot::Mode::plate};
         for (std::uint32_t i = 0; i < 6; ++i) bot.vertices.push_back(10.0 * random.in_cube());
         bot.faces = {{0, 1, 2}, {3, 4, 5}};
         bot.thickness = {random.between(0.1, 20), random.between(0.1, 20)};

@@ -88,9 +88,7 @@ private:
 };
 
 void add_region(Scene& scene, const std::string& solid, const Matrix& matrix, bool bounded) {
-    Combination region;
-    region.name = "r." + solid;
-    region.region = true;
+    Combination region{.name = "r." + solid, .region = true};
     region.tree.nodes.push_back({Operator::leaf, 0, solid, matrix, {}});
     if (bounded && solid == "half") {
         region.tree.nodes.push_back({Operator::leaf, 0, "limits", matrix, {}});
@@ -164,11 +162,7 @@ struct Tally {
     }
 };
 
-Settings on_reference() {
-    Settings settings;
-    settings.reference = true;
-    return settings;
-}
+Settings on_reference() { return {.reference = true}; }
 
 /// The rays, and then those that begin where they meet something: on, or back, or aside.
 void shoot_both(const Scene& scene, std::vector<Ray> rays, stress::Random& random, Tally& tally) {

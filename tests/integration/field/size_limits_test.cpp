@@ -57,9 +57,7 @@ using test::says;
 Scene one(Shape shape, const Matrix& matrix = identity) {
     Scene scene;
     scene.objects.push_back(Solid{"thing", std::move(shape), {}});
-    Combination region;
-    region.name = "r";
-    region.region = true;
+    Combination region{.name = "r", .region = true};
     region.tree = leaf("thing", matrix);
     scene.objects.push_back(std::move(region));
     return scene;
@@ -74,10 +72,7 @@ TEST_CASE("answers are right up to the limits on many rays", "[.long]") { test::
 
 TEST_CASE("a scene of every type answers the same, to the bit, 2^40 times as large or small", "[field]") {
     const std::string folder = test::folder("CSGRT_SCENES");
-    if (folder.empty()) {
-        WARN("no scenes: CSGRT_SCENES is not set");
-        return;
-    }
+    if (folder.empty()) return;
     for (const char* name :
          {"solids", "cylinders", "polyhedra", "quadrics", "pipes", "blobs", "meshes", "sketches", "cells"}) {
         const Scene scene = load_scene(folder + "/" + name + ".json");
@@ -126,8 +121,7 @@ TEST_CASE("a scene of every type answers the same, to the bit, 2^40 times as lar
             if (name == std::string("solids"))
                 device.emplace(moved(scene, tops, scaling(by)), std::vector<std::string>{"moved"}, device_settings);
             for (const double perspective : {0.0, 40.0}) {
-                View view;
-                view.width = view.height = 40;
+                View view{.width = 40, .height = 40};
                 view.camera.perspective = perspective;
                 const Vec3 middle = 0.5 * (low + high);
                 view.camera.center = middle;

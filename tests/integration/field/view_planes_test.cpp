@@ -43,9 +43,7 @@ Plane moved(const Matrix& m, std::size_t axis, double sign, double at) {
 }
 
 void add_region(Scene& scene, const std::string& name, Tree tree) {
-    Combination region;
-    region.name = name;
-    region.region = true;
+    Combination region{.name = name, .region = true};
     region.tree = std::move(tree);
     scene.objects.push_back(std::move(region));
     scene.top.push_back(name);

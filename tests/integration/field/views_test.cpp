@@ -488,8 +488,7 @@ TEST_CASE("views: what makes no sense is refused in words", "[promise:views]") {
     }
     // The least and the largest that are allowed.
     for (const double size : {1e-15, 1e18}) {
-        Camera camera;
-        camera.view_size = size;
+        Camera camera{.view_size = size};
         CHECK(refusal(scene, camera).empty());
     }
 }

@@ -116,9 +116,7 @@ Model random_model(Random& random) {
         model.scene.objects.push_back(Solid{names.back(), part.shape(), {}});
     }
     for (int i = random.whole(1, 3); i > 0; --i) {
-        Combination region;
-        region.name = "r" + std::to_string(i);
-        region.region = true;
+        Combination region{.name = "r" + std::to_string(i), .region = true};
         region.tree = random_tree(random, names, random.whole(0, 3));
         model.regions.push_back(region.tree);
         for (const TreeNode& node : region.tree.nodes)

@@ -36,12 +36,7 @@ struct Counts {
     }
 };
 
-inline Settings on_reference() {
-    Settings settings;
-    settings.reference = true;
-    settings.threads = 1;
-    return settings;
-}
+inline Settings on_reference() { return {.reference = true, .threads = 1}; }
 
 /// Writes a scene and the first of its rays that went wrong into the folder CSGRT_STRESS_FINDINGS, if that is given:
 /// csgrt shoot NAME.json --rays NAME.rays

@@ -59,8 +59,7 @@ inline Speckles look(const stress::StressScene& made, const Settings& settings) 
     if (!std::isfinite(box.high.x - box.low.x)) box = {{-8, -8, -8}, {8, 8, 8}};  // half-spaces in every region
     const auto middle = [](double a, double b) { return 0.5 * (a + b); };
     for (const auto& [azimuth, elevation] : {std::array{35.0, 25.0}, std::array{0.0, 90.0}, std::array{215.0, -40.0}}) {
-        View view;
-        view.width = view.height = picture_size;
+        View view{.width = picture_size, .height = picture_size};
         view.camera.azimuth = azimuth;
         view.camera.elevation = elevation;
         view.camera.center = {middle(box.low.x, box.high.x), middle(box.low.y, box.high.y),

@@ -14,8 +14,7 @@ OutlineCase extrude_case(std::size_t index, oracle::Random& random) {
     const LocalFrame local = place <= 1 ? aligned_local_frame(random) : random_local_frame(random, size);
     const double height = random.below(4) == 0 ? 1e-3 : random.between(0.3, 2);
     const bool lean = random.coin();
-    Extrude shape;
-    shape.v = to_vec3(local.at);
+    Extrude shape{.v = to_vec3(local.at)};
     shape.a = to_vec3(local.vector(1, 0, 0)), shape.b = to_vec3(local.vector(lean ? 0.3 : 0, lean ? 0.8 : 1, 0));
     shape.h = to_vec3(local.vector(lean ? 0.5 : 0, lean ? -0.2 : 0, height));
     shape.sketch = SketchMaker(random).make(form);

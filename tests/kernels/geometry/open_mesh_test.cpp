@@ -9,8 +9,7 @@ namespace {
 
 /// Two cubes along x, from 0 to 1 and from 2 to 3; the first lacks its face at 0. Seen from outside, counterclockwise.
 Bot two_cubes(Bot::Orientation orientation, bool turned) {
-    Bot bot;
-    bot.orientation = orientation;
+    Bot bot{.orientation = orientation};
     for (const double x : {0.0, 2.0}) {
         const auto first = static_cast<std::uint32_t>(bot.vertices.size());
         for (int i = 0; i < 8; ++i) bot.vertices.push_back({x + (i & 1), double(i >> 1 & 1), double(i >> 2 & 1)});
@@ -29,10 +28,8 @@ Bot two_cubes(Bot::Orientation orientation, bool turned) {
 }
 
 RayPartitions shoot(const Bot& bot, const Ray& ray) {
-    Scene scene;
-    scene.objects = {Solid{"s", bot, {}}};
-    Settings settings;
-    settings.reference = true;
+    Scene scene{.objects = {Solid{"s", bot, {}}}};
+    Settings settings{.reference = true};
     return Renderer(scene, {}, settings).shoot({ray})[0];
 }
 

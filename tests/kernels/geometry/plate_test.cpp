@@ -137,12 +137,7 @@ void check_plates(std::size_t solids, std::uint64_t seed) {
     CHECK(tally.ties * 2 < tally.rays);
 }
 
-Bot one_triangle() {
-    Bot bot;
-    bot.vertices = {{0, 0, 0}, {10, 0, 0}, {0, 10, 0}};
-    bot.faces = {{0, 1, 2}};
-    return bot;
-}
+Bot one_triangle() { return {.vertices = {{0, 0, 0}, {10, 0, 0}, {0, 10, 0}}, .faces = {{0, 1, 2}}}; }
 
 }  // namespace
 

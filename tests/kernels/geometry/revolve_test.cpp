@@ -30,8 +30,7 @@ OutlineCase revolve_case(std::size_t index, oracle::Random& random) {
     const std::size_t place = round % std::size(oracle::detail::placements);
     const double size = round % 3 == 1 ? 1e-3 : round % 3 == 2 ? 1e4 : 1;
     const LocalFrame local = place <= 1 ? aligned_local_frame(random) : random_local_frame(random, size);
-    Revolve shape;
-    shape.v = to_vec3(local.at);
+    Revolve shape{.v = to_vec3(local.at)};
     shape.axis = to_vec3(local.vector(0, 0, 1)), shape.r = to_vec3(local.vector(1, 0, 0));
     shape.angle = some_angle(random);
     shape.sketch = ProfileMaker(random).make(form);
@@ -137,8 +136,7 @@ TEST_CASE("geometry: a ray along the axis of a revolve has normals along it, too
     Scene scene;
     scene.objects.push_back(Solid{"drum", shape, {}});
     for (const bool reference : {true, false}) {
-        Settings settings;
-        settings.reference = reference;
+        Settings settings{.reference = reference};
         Renderer renderer(scene, {}, settings);
         for (const double way : {1.0, -1.0}) {
             const RayPartitions found = renderer.shoot({{{0, 0, 1.5 - 10 * way}, {0, 0, way}}}).front();

@@ -110,9 +110,7 @@ TEST_CASE("tiles see the same of a scene of one solid, and of an unbounded one")
         scene.objects.push_back(Solid{"half", Half{{{0, 0, 1}, 0}}, {}});
         scene.objects.push_back(Solid{"ball", stress::ball({0, 0, 0}, 3), {}});
         scene.top = bounded ? std::vector<std::string>{"ball"} : std::vector<std::string>{"ball", "half"};
-        View view;
-        view.width = view.height = 50;
-        view.every_partition = false;
+        View view{.width = 50, .height = 50, .every_partition = false};
         CHECK(require_same(compile(scene, {}), view) == 1);
     }
 }

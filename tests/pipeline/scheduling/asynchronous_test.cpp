@@ -69,9 +69,7 @@ TEST_CASE("asynchronous: the picture is made, whatever was there before and howe
     std::uint32_t most_batches = 0;
     std::optional<RegisteredMemory> registered;
     for (const double azimuth : {35.0, 80.0, 200.0}) {
-        View view;
-        view.width = 77;
-        view.height = 61;
+        View view{.width = 77, .height = 61};
         view.camera.azimuth = azimuth;
         view.every_partition = every_partition;
         renderer.render(view, framebuffer);
@@ -153,8 +151,7 @@ struct Lined {
     /// interrupts it.
     PipelineCounts draw(int width, int height, bool every_partition, std::uint64_t rays,
                         const Progress& progress = nullptr) {
-        View view;
-        view.channels = channels;
+        View view{.channels = channels};
         view.camera.azimuth = azimuth;
         view.width = width;
         view.height = height;
@@ -355,10 +352,7 @@ void add_ball(Scene& scene, const std::string& name, const Vec3& center, double 
 
 /// How many of the tiles of such a picture's first hits are listed in parts, counted by entries.
 std::size_t count_parts(const Lined& lined, int width, int height) {
-    View view;
-    view.width = width;
-    view.height = height;
-    view.every_partition = false;
+    View view{.width = width, .height = height, .every_partition = false};
     view.camera.azimuth = lined.azimuth;
     PreparedFrame prepared = prepare_frame(lined.compiled, view, lined.renderer.statistics().tolerance);
     const auto rays = static_cast<std::uint32_t>(prepared.rays);
@@ -439,9 +433,7 @@ TEST_CASE("asynchronous: parts of one device's picture, a frame like the last on
     Lined lined(bench::scene_of_parts(20));
     DeviceGroup pipelines(plan_devices(lined.settings).first, lined.compiled, *lined.kernels, lined.settings,
                           Readback::asynchronous);
-    View view;
-    view.width = 1600;
-    view.height = 1000;
+    View view{.width = 1600, .height = 1000};
     view.camera.view_size = lined.compiled.radius;  // from edge to edge
     view.channels = channel::color | channel::ids;
     Channels pixels(1600 * 1000, std::vector<float>{0, 0, 0, 1, 0, 0});

@@ -23,12 +23,7 @@ namespace {
 
 const Vec3 none{}, x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
 
-Settings on_reference(std::uint64_t max_instances = 0) {
-    Settings settings;
-    settings.reference = true;
-    settings.max_instances = max_instances;
-    return settings;
-}
+Settings on_reference(std::uint64_t max_instances = 0) { return {.reference = true, .max_instances = max_instances}; }
 
 /// Names and numbers, in order. The text has them as `pattern` finds them.
 std::vector<std::pair<std::string, double>> numbers_in(const std::string& path, const std::string& pattern) {
@@ -170,8 +165,7 @@ TEST_CASE("limits: rays", "[promise:limits]") {
 }
 
 TEST_CASE("limits: triangles of a mesh", "[.long][promise:limits]") {
-    Bot bot;
-    bot.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    Bot bot{.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
     bot.faces.resize(Limits::triangles, {0, 1, 2});
     check_sound(bot);
     bot.faces.push_back({0, 1, 2});

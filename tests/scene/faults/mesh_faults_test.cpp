@@ -7,13 +7,6 @@ using namespace csgrt;
 
 namespace {
 
-Bot tetrahedron() {
-    Bot bot;
-    bot.vertices = {{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {0, 0, 4}};
-    bot.faces = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
-    return bot;
-}
-
 Bot plates() {
     Bot bot = tetrahedron();
     bot.mode = Bot::Mode::plate;

@@ -89,11 +89,8 @@ TEST_CASE("g: BRL-CAD's models are those of their texts", "[g][models]") {
 }
 
 TEST_CASE("g: every solid that a text can hold", "[g][models]") {
-    const char* truth = std::getenv("CSGRT_TRUTH");
-    if (truth == nullptr || !std::filesystem::is_directory(std::filesystem::path(truth) / "solids")) {
-        WARN("skipped: CSGRT_TRUTH names no folder with BRL-CAD's answers");
-        return;
-    }
+    const std::string truth = test::folder("CSGRT_TRUTH");
+    if (truth.empty()) return;
     for (const char* file : {"solids", "solids_csg"}) {
         INFO(file);
         check_twins(std::filesystem::path(truth) / "solids" / file);

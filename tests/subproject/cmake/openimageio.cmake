@@ -1,1 +1,0 @@
-message(FATAL_ERROR "this module is the parent's own")
