@@ -30,11 +30,10 @@
 #include <csgrt/csgrt.hpp>
 
 #include "base/clock.hpp"
-#include "cli/cache_folder.hpp"
 #include "figures.hpp"
 #include "floors.hpp"
-#include "options.hpp"
-#include "parts.hpp"
+#include "program.hpp"
+#include "stress/parts.hpp"
 #include "workloads.hpp"
 
 namespace {
@@ -43,8 +42,8 @@ using namespace csgrt;
 using namespace csgrt::bench;
 
 struct Options {
-    std::vector<std::string> devices, only, compare;
-    std::string models = "../shared/brlcad", scenes = "scenes", json;
+    std::vector<std::string> devices, only;
+    std::string models = "../shared/brlcad", scenes = "scenes", json, compare, compare_with;
     int size = 1024, frames = 20, orbit = 0;
     bool every_partition = true, first_hits = false, lists = false, floors = false, color = false, cuts = false;
 };
@@ -212,61 +211,35 @@ Figures measure(const Workload& workload, Renderer& renderer, const Task& task, 
 }
 
 Options parse(int argc, char** argv) {
-    Options options;
-    for (int i = 1; i < argc; ++i) {
-        const std::string name = argv[i];
-        if (name == "--first-hit" || name == "--both") {
-            options.first_hits = true;
-            options.every_partition = name == "--both";
-            continue;
-        }
-        if (name == "--lists") {
-            options.lists = true;
-            continue;
-        }
-        if (name == "--color") {
-            options.color = true;
-            continue;
-        }
-        if (name == "--cuts") {
-            options.cuts = true;
-            continue;
-        }
-        if (name == "--floors") {
-            options.floors = true;
-            continue;
-        }
-        if (i + 1 == argc) throw Error(Status::usage, name + ": unknown, or lacks its value");
-        const std::string value = argv[++i];
-        if (name == "--device") {
-            options.devices.push_back(value);
-        } else if (name == "--models") {
-            options.models = value;
-        } else if (name == "--scenes") {
-            options.scenes = value;
-        } else if (name == "--json") {
-            options.json = value;
-        } else if (name == "--size") {
-            options.size = parse_number(name, value, 1, 1'000'000);
-        } else if (name == "--frames") {
-            options.frames = parse_number(name, value, 0, 1'000'000);
-        } else if (name == "--orbit") {
-            options.orbit = parse_number(name, value, 1, 1'000'000);
-        } else if (name == "--only") {
-            options.only = split_list(value);
-        } else if (name == "--compare") {
-            if (i + 1 == argc) throw Error(Status::usage, "--compare needs two files");
-            options.compare = {value, argv[++i]};
-        } else {
-            throw Error(Status::usage, name + ": unknown option");
-        }
+    Options o;
+    bool first_hit = false, both = false;
+    OptionReader options;
+    options.flag("--first-hit", first_hit);
+    options.flag("--both", both);
+    options.flag("--lists", o.lists);
+    options.flag("--color", o.color);
+    options.flag("--cuts", o.cuts);
+    options.flag("--floors", o.floors);
+    options.value("--device", [&](const std::string& device) { o.devices.push_back(device); });
+    options.text("--models", o.models);
+    options.text("--scenes", o.scenes);
+    options.text("--json", o.json);
+    options.number("--size", o.size, 1, 1'000'000);
+    options.number("--frames", o.frames, 0, 1'000'000);
+    options.number("--orbit", o.orbit, 1, 1'000'000);
+    options.list("--only", o.only);
+    options.text("--compare", o.compare);
+    const std::vector<std::string> words = options.read(argc, argv, 1, 1);
+    if (words.empty() != o.compare.empty()) throw Error(Status::usage, "--compare takes two files, all else none");
+    if (!words.empty()) o.compare_with = words[0];
+    o.first_hits = first_hit || both;
+    o.every_partition = both || !first_hit;
+    if (o.devices.empty()) o.devices.push_back("");
+    if (std::find(o.devices.begin(), o.devices.end(), "all") != o.devices.end()) {
+        o.devices.clear();
+        for (std::size_t i = 0; i < devices().size(); ++i) o.devices.push_back(std::to_string(i));
     }
-    if (options.devices.empty()) options.devices.push_back("");
-    if (std::find(options.devices.begin(), options.devices.end(), "all") != options.devices.end()) {
-        options.devices.clear();
-        for (std::size_t i = 0; i < devices().size(); ++i) options.devices.push_back(std::to_string(i));
-    }
-    return options;
+    return o;
 }
 
 bool wanted(const Workload& workload, const Options& options) {
@@ -292,7 +265,7 @@ std::vector<Figures> run(const Options& options, std::vector<Floor>& floors) {
             continue;
         }
         const auto start = Clock::now();
-        const Scene scene = workload.parts > 0 ? scene_of_parts(workload.parts) : load_scene(path);
+        const Scene scene = workload.parts > 0 ? stress::scene_of_parts(workload.parts) : load_scene(path);
         const double load = milliseconds_since(start);
         if (options.floors) floors.push_back(count_floor(workload.name, scene, workload.objects));
         if (options.frames == 0 && options.orbit == 0) continue;
@@ -338,11 +311,10 @@ void print_cuts(const std::vector<Figures>& all) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    cli::ensure_cache_folder();
-    try {
+    return run_program("csgrt_bench", [&] {
         const Options options = parse(argc, argv);
         if (!options.compare.empty()) {
-            print_comparison(load(options.compare[0]), load(options.compare[1]));
+            print_comparison(load(options.compare), load(options.compare_with));
             return 0;
         }
         std::vector<Floor> floors;
@@ -357,9 +329,6 @@ int main(int argc, char** argv) {
         }
         if (options.floors) print_floors(floors, measured, options.size);
         if (!options.json.empty()) save(all, options.json);
-    } catch (const Error& error) {
-        std::fprintf(stderr, "csgrt_bench: %s\n", error.what());
-        return static_cast<int>(error.status());
-    }
-    return 0;
+        return 0;
+    });
 }

@@ -19,11 +19,10 @@
 #include <csgrt/csgrt.hpp>
 
 #include "base/clock.hpp"
+#include "base/identical.hpp"
 #include "bench/chart/report.hpp"
-#include "bench/options.hpp"
-#include "cli/cache_folder.hpp"
+#include "bench/program.hpp"
 #include "tally.hpp"
-#include "verify/answers.hpp"
 
 namespace {
 
@@ -107,39 +106,25 @@ Sums run(const Item& item, const Options& options, std::size_t planned, double s
 }
 
 Options parse(int argc, char** argv) {
-    Options options;
-    for (int i = 1; i < argc; i += 2) {
-        const std::string name = argv[i];
-        if (i + 1 == argc) throw Error(Status::usage, name + ": unknown, or lacks its value");
-        const std::string value = argv[i + 1];
-        if (name == "--rays") {
-            options.rays = bench::parse_number(name, value, 1.0, 1e12);
-        } else if (name == "--seconds") {
-            options.seconds = bench::parse_number(name, value, 1.0, 1e12);
-        } else if (name == "--threads") {
-            options.threads = static_cast<unsigned>(std::min(bench::parse_number(name, value, 1.0, 1e12), 1024.0));
-        } else if (name == "--device") {
-            options.device = value;
-        } else if (name == "--only") {
-            options.choice.only = bench::split_list(value);
-        } else if (name == "--models") {
-            options.choice.models = value;
-        } else if (name == "--scenes") {
-            options.choice.scenes = value;
-        } else if (name == "--precision") {
-            const auto* at = std::find_if(std::begin(precision_names), std::end(precision_names),
-                                          [&](const auto& known) { return known.first == value; });
-            if (at == std::end(precision_names)) throw Error(Status::usage, "--precision: there is no " + value);
-            options.precision = at->second;
-        } else if (name == "--json") {
-            options.json = value;
-        } else if (name == "--wrong") {
-            options.wrong = value;
-        } else {
-            throw Error(Status::usage, name + ": unknown option");
-        }
-    }
-    return options;
+    Options o;
+    bench::OptionReader options;
+    options.number("--rays", o.rays, 1, 1e12);
+    options.number("--seconds", o.seconds, 1, 1e12);
+    options.number("--threads", o.threads, 1, 1024);
+    options.text("--device", o.device);
+    options.list("--only", o.choice.only);
+    options.text("--models", o.choice.models);
+    options.text("--scenes", o.choice.scenes);
+    options.value("--precision", [&](const std::string& value) {
+        const auto* at = std::find_if(std::begin(precision_names), std::end(precision_names),
+                                      [&](const auto& known) { return known.first == value; });
+        if (at == std::end(precision_names)) throw Error(Status::usage, "--precision: there is no " + value);
+        o.precision = at->second;
+    });
+    options.text("--json", o.json);
+    options.text("--wrong", o.wrong);
+    options.read(argc, argv);
+    return o;
 }
 
 int run_all(const Options& options) {
@@ -189,11 +174,5 @@ int run_all(const Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    cli::ensure_cache_folder();
-    try {
-        return run_all(parse(argc, argv));
-    } catch (const Error& error) {
-        std::fprintf(stderr, "csgrt_campaign: %s\n", error.what());
-        return static_cast<int>(error.status());
-    }
+    return bench::run_program("csgrt_campaign", [&] { return run_all(parse(argc, argv)); });
 }

@@ -6,8 +6,8 @@
 
 #include <csgrt/scene_io.hpp>
 
-#include "bench/stress/families.hpp"
-#include "bench/stress/random.hpp"
+#include "stress/families.hpp"
+#include "stress/random.hpp"
 #include "oracle/scene_judge.hpp"
 #include "integration/stress/expected.hpp"
 

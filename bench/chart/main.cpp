@@ -15,9 +15,8 @@
 #include <csgrt/csgrt.hpp>
 
 #include "base/clock.hpp"
-#include "bench/options.hpp"
+#include "bench/program.hpp"
 #include "bench/workloads.hpp"
-#include "cli/cache_folder.hpp"
 #include "report.hpp"
 #include "tasks.hpp"
 #include "trial.hpp"
@@ -82,60 +81,35 @@ std::vector<Mode> modes_of(const std::string& name, const std::string& value) {
 }
 
 Options parse(int argc, char** argv) {
-    Options options;
-    for (int i = 1; i < argc; ++i) {
-        const std::string name = argv[i];
-        if (name == "--truth-only") {
-            options.truth_only = true;
-            continue;
-        }
-        if (i + 1 == argc) throw Error(Status::usage, name + ": unknown, or lacks its value");
-        const std::string value = argv[++i];
-        if (name == "--device") {
-            options.trial.device = value;
-        } else if (name == "--json") {
-            options.json = value;
-        } else if (name == "--rays") {
-            options.sample.rays = parse_number<std::size_t>(name, value, 1, 10'000'000);
-        } else if (name == "--truth") {
-            options.truth = value;
-        } else if (name == "--minutes") {
-            options.minutes = parse_number<double>(name, value, 0.001, 1e6);
-        } else if (name == "--size") {
-            options.trial.size = parse_number(name, value, 1, 32768);
-        } else if (name == "--deep-size") {
-            options.trial.deep_size = parse_number(name, value, 1, 32768);
-        } else if (name == "--frames") {
-            options.frames = parse_number(name, value, 1, 10'000'000);
-        } else if (name == "--device-scenes") {
-            options.trial.device_scenes = parse_number<std::size_t>(name, value, 1, 10'000'000);
-        } else if (name == "--method-seconds") {
-            options.trial.method_seconds = parse_number<double>(name, value, 0, 1e6);
-        } else if (name == "--method-frame") {
-            options.trial.method_frame = parse_number<double>(name, value, 0, 1e6);
-        } else if (name == "--modes") {
-            options.trial.modes = modes_of(name, value);
-        } else if (name == "--deep") {
-            options.sample.deep.clear();
-            for (const std::string& size : split_list(value))
-                options.sample.deep.push_back(parse_number<std::uint32_t>(name, size, 2, 1'000'000));
-        } else if (name == "--models") {
-            options.sample.models = value;
-        } else if (name == "--scenes") {
-            options.sample.scenes = value;
-        } else if (name == "--workloads") {
-            options.sample.only = split_list(value);
-        } else if (name == "--variants") {
-            options.variants = split_list(value);
-        } else if (name == "--methods") {
-            options.methods = split_list(value);
-        } else {
-            throw Error(Status::usage, name + ": unknown option");
-        }
-    }
-    if (options.truth_only && options.truth.empty())
+    Options o;
+    OptionReader options;
+    options.flag("--truth-only", o.truth_only);
+    options.text("--device", o.trial.device);
+    options.text("--json", o.json);
+    options.number("--rays", o.sample.rays, 1, 10'000'000);
+    options.text("--truth", o.truth);
+    options.number("--minutes", o.minutes, 0.001, 1e6);
+    options.number("--size", o.trial.size, 1, 32768);
+    options.number("--deep-size", o.trial.deep_size, 1, 32768);
+    options.number("--frames", o.frames, 1, 10'000'000);
+    options.number("--device-scenes", o.trial.device_scenes, 1, 10'000'000);
+    options.number("--method-seconds", o.trial.method_seconds, 0, 1e6);
+    options.number("--method-frame", o.trial.method_frame, 0, 1e6);
+    options.value("--modes", [&](const std::string& value) { o.trial.modes = modes_of("--modes", value); });
+    options.value("--deep", [&](const std::string& value) {
+        o.sample.deep.clear();
+        for (const std::string& size : split_list(value))
+            o.sample.deep.push_back(parse_number<std::uint32_t>("--deep", size, 2, 1'000'000));
+    });
+    options.text("--models", o.sample.models);
+    options.text("--scenes", o.sample.scenes);
+    options.list("--workloads", o.sample.only);
+    options.list("--variants", o.variants);
+    options.list("--methods", o.methods);
+    options.read(argc, argv);
+    if (o.truth_only && o.truth.empty())
         throw Error(Status::usage, "--truth-only: needs --truth FOLDER, where the truth goes");
-    return options;
+    return o;
 }
 
 /// Those of the names, in their order; all if there are none, none if the only name is "none".
@@ -307,12 +281,8 @@ int measure(Options options) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    cli::ensure_cache_folder();
-    try {
+    return run_program("csgrt_chart", [&] {
         const Options options = parse(argc, argv);
         return options.truth_only ? make_truth(options) : measure(options);
-    } catch (const Error& error) {
-        std::fprintf(stderr, "csgrt_chart: %s\n", error.what());
-        return static_cast<int>(error.status());
-    }
+    });
 }

@@ -9,7 +9,7 @@
 
 #include "bench/workloads.hpp"
 #include "compile/frame.hpp"
-#include "bench/stress/build.hpp"
+#include "stress/build.hpp"
 
 namespace csgrt::bench {
 namespace {

@@ -11,7 +11,6 @@
 #include <utility>
 
 #include "compile/linear.hpp"
-#include "compile/solids/curved_frames.hpp"
 #include "compile/solids/meshes/mesh_repair.hpp"
 #include "compile/solids/polyhedron.hpp"
 #include "loft.hpp"

@@ -4,7 +4,7 @@
 //   csgrt_methods run NAME SCENE [OBJECTS...] [--knob X] [--size N | --rays FILE] [--first-hits] [--device D]
 //                 [--threads N] [--compare]
 //
-// SCENE: a file, or stress:FAMILY:SEED with the rays of that scene of the stress suite (bench/stress/README.md).
+// SCENE: a file, or stress:FAMILY:SEED with the rays of that scene of the stress suite (tests/stress/README.md).
 // --size: a picture of the scene's view of N x N rays (256). --rays: a file for `csgrt shoot`.
 // Times are those of the fastest of seven runs or more (a second of them).
 // --compare: how many rays have other regions than the CPU reference; and, for methods with kernels, how long csgrt's
@@ -17,8 +17,7 @@
 
 #include <csgrt/csgrt.hpp>
 
-#include "bench/options.hpp"
-#include "cli/cache_folder.hpp"
+#include "bench/program.hpp"
 #include "compile/compiled_scene.hpp"
 #include "device/choice.hpp"
 #include "method.hpp"
@@ -54,49 +53,27 @@ struct Job {
 };
 
 Arguments parse(int argc, char** argv) {
-    Arguments arguments;
-    std::vector<std::string> words;
-    for (int i = 2; i < argc; ++i) {
-        const std::string word = argv[i];
-        if (!word.starts_with("--")) {
-            words.push_back(word);
-            continue;
-        }
-        if (word == "--first-hits") {
-            arguments.trace.first_hits = true;
-            continue;
-        }
-        if (word == "--compare") {
-            arguments.compare = true;
-            continue;
-        }
-        const bool known =
-            word == "--knob" || word == "--size" || word == "--rays" || word == "--device" || word == "--threads";
-        if (!known)
-            throw Error(Status::usage, word + ": unknown option; the head of bench/methods/main.cpp lists them");
-        if (i + 1 == argc) throw Error(Status::usage, word + ": lacks its value");
-        const std::string value = argv[++i];
-        if (word == "--knob") {
-            constexpr double most = std::numeric_limits<double>::max();
-            arguments.trace.knob = parse_number(word, value, -most, most);
-            arguments.has_knob = true;
-        } else if (word == "--size") {
-            arguments.size = parse_number(word, value, 1, 8192);
-        } else if (word == "--rays") {
-            arguments.rays = value;
-        } else if (word == "--device") {
-            arguments.trace.device = value;
-        } else {
-            arguments.trace.threads = parse_number(word, value, 1u, 1024u);
-        }
-    }
+    Arguments a;
+    OptionReader options;
+    options.flag("--first-hits", a.trace.first_hits);
+    options.flag("--compare", a.compare);
+    options.value("--knob", [&](const std::string& value) {
+        constexpr double most = std::numeric_limits<double>::max();
+        a.trace.knob = parse_number("--knob", value, -most, most);
+        a.has_knob = true;
+    });
+    options.number("--size", a.size, 1, 8192);
+    options.text("--rays", a.rays);
+    options.text("--device", a.trace.device);
+    options.number("--threads", a.trace.threads, 1, 1024);
+    const std::vector<std::string> words = options.read(argc, argv, 2, SIZE_MAX);
     if (words.size() < 2) throw Error(Status::usage, "run: needs the name of a method and a scene");
-    if (arguments.size && !arguments.rays.empty())
+    if (a.size && !a.rays.empty())
         throw Error(Status::usage, "--size and --rays exclude each other: both say which rays are traced");
-    arguments.method = words[0];
-    arguments.scene = words[1];
-    arguments.objects.assign(words.begin() + 2, words.end());
-    return arguments;
+    a.method = words[0];
+    a.scene = words[1];
+    a.objects.assign(words.begin() + 2, words.end());
+    return a;
 }
 
 /// One ray a line, ox oy oz dx dy dz, as `csgrt shoot` reads them; # begins a comment.
@@ -281,8 +258,7 @@ Status run(const Arguments& arguments) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    cli::ensure_cache_folder();
-    try {
+    return run_program("csgrt_methods", [&] {
         if (argc == 1) {
             list_methods();
             return 0;
@@ -292,8 +268,5 @@ int main(int argc, char** argv) {
                                            ": unknown; csgrt_methods alone lists the methods, and "
                                            "`csgrt_methods run NAME SCENE` runs one");
         return static_cast<int>(run(parse(argc, argv)));
-    } catch (const Error& error) {
-        std::fprintf(stderr, "csgrt_methods: %s\n", error.what());
-        return static_cast<int>(error.status());
-    }
+    });
 }

@@ -1,7 +1,7 @@
 // csgrt_judge_pov: POV-Ray's pictures before csgrt's judge, and its times beside csgrt's; one JSON file.
 //
 //   csgrt_judge_pov [--workloads A,B] [--models FOLDER] [--scenes FOLDER] [--rays N] [--size N] [--rounds N]
-//                   [--threads N] [--keep FOLDER] [--json FILE] [--planted yes]
+//                   [--threads N] [--keep FOLDER] [--json FILE] [--planted]
 //
 // A workload of the chart (bench/chart) is written for POV-Ray, each region in a colour of its own, without light. Two
 // pictures are drawn: a small one, whose pixels are the chart's judged rays (--rays, about), and one of --size pixels,
@@ -25,8 +25,7 @@
 #include "bench/chart/report.hpp"
 #include "bench/chart/tasks.hpp"
 #include "bench/chart/truth.hpp"
-#include "bench/options.hpp"
-#include "cli/cache_folder.hpp"
+#include "bench/program.hpp"
 #include "compile/flatten/flatten.hpp"
 #include "compile/frame.hpp"
 #include "compile/linear.hpp"
@@ -341,43 +340,26 @@ Row judge(const ChartWorkload& workload, const Options& options, Row& ours) {
 }
 
 Options parse(int argc, char** argv) {
-    Options options;
-    for (int i = 1; i < argc; i += 2) {
-        const std::string name = argv[i];
-        if (i + 1 == argc) throw Error(Status::usage, name + ": unknown, or lacks its value");
-        const std::string value = argv[i + 1];
-        if (name == "--workloads") {
-            options.sample.only = split_list(value);
-        } else if (name == "--models") {
-            options.sample.models = value;
-        } else if (name == "--scenes") {
-            options.sample.scenes = value;
-        } else if (name == "--rays") {
-            options.sample.rays = parse_number<std::size_t>(name, value, 1, 1'000'000);
-        } else if (name == "--size") {
-            options.size = parse_number(name, value, 1, 1'000'000);
-        } else if (name == "--rounds") {
-            options.rounds = parse_number(name, value, 1, 1'000'000);
-        } else if (name == "--threads") {
-            options.threads = parse_number(name, value, 1, 1'000'000);
-        } else if (name == "--keep") {
-            options.folder = value;
-        } else if (name == "--json") {
-            options.json = value;
-        } else if (name == "--planted" && value == "yes") {
-            options.planted = true;
-        } else {
-            throw Error(Status::usage, name + ": unknown option");
-        }
-    }
-    return options;
+    Options o;
+    OptionReader options;
+    options.list("--workloads", o.sample.only);
+    options.text("--models", o.sample.models);
+    options.text("--scenes", o.sample.scenes);
+    options.number("--rays", o.sample.rays, 1, 1'000'000);
+    options.number("--size", o.size, 1, 1'000'000);
+    options.number("--rounds", o.rounds, 1, 1'000'000);
+    options.number("--threads", o.threads, 1, 1'000'000);
+    options.text("--keep", o.folder);
+    options.text("--json", o.json);
+    options.flag("--planted", o.planted);
+    options.read(argc, argv);
+    return o;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-    cli::ensure_cache_folder();
-    try {
+    return run_program("csgrt_judge_pov", [&] {
         Options options = parse(argc, argv);
         if (std::system("povray --version >/dev/null 2>&1") != 0) {
             std::puts("skipped: there is no povray (Debian: apt-get install povray)");
@@ -414,9 +396,6 @@ int main(int argc, char** argv) {
         if (!is_kept) std::filesystem::remove_all(options.folder);
         if (report.rows.empty()) throw Error(Status::usage, "there is no workload to judge");
         write_whole(to_json(report), options.json);
-    } catch (const Error& error) {
-        std::fprintf(stderr, "csgrt_judge_pov: %s\n", error.what());
-        return static_cast<int>(error.status());
-    }
-    return 0;
+        return 0;
+    });
 }

@@ -11,9 +11,9 @@
 
 #include <csgrt/csgrt.hpp>
 
-#include "bench/parts.hpp"
 #include "compile/compiled_scene.hpp"
 #include "compile/frame.hpp"
+#include "stress/parts.hpp"
 
 using namespace csgrt;
 
@@ -99,7 +99,7 @@ int main(int argc, char** argv) {
     try {
         const int solids = argc == 3 ? std::atoi(argv[1]) : 0;
         if (solids < 3) throw std::runtime_error("csgrt_peer_scene SOLIDS FOLDER, with 3 solids at least");
-        Scene scene = bench::scene_of_parts(static_cast<std::uint32_t>(solids));
+        Scene scene = stress::scene_of_parts(static_cast<std::uint32_t>(solids));
         scene.background = {0, 0, 1};  // no part is pure blue: the script knows it by that
         const std::string folder = argv[2];
         save_scene(scene, folder + "/scene.json");

@@ -1,13 +1,13 @@
 // What half-spaces leave of regions' trees and of solids, before solids are numbered; and which solids rays meet.
 #include <algorithm>
 
-#include "bench/stress/random.hpp"
 #include "catch.hpp"
 #include "compile/bounds/instance_bounds.hpp"
 #include "compile/bvh/space.hpp"
 #include "compile/half_spaces.hpp"
 #include "compile/linear.hpp"
 #include "compile/model.hpp"
+#include "stress/random.hpp"
 
 using namespace csgrt;
 using namespace csgrt::test;

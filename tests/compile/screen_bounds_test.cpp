@@ -4,12 +4,12 @@
 
 #include <random>
 
-#include "bench/parts.hpp"
+#include "stress/parts.hpp"
 #include "catch.hpp"
 #include "compile/model.hpp"
 #include "reference/reference.hpp"
 #include "sanitized.hpp"
-#include "bench/stress/rewrite.hpp"
+#include "stress/rewrite.hpp"
 
 using namespace csgrt;
 
@@ -63,7 +63,7 @@ TEST_CASE("no ray outside of the screen meets anything") {
     const Settings settings =
         GENERATE(Settings{}, Settings{.precision = Precision::single}, with_methods({.single_world = true}));
     const double away = GENERATE(0.0, 3e6);  // millimetres
-    const Scene scene = moved_by(bench::scene_of_parts(30), away);
+    const Scene scene = moved_by(stress::scene_of_parts(30), away);
     const CompiledScene compiled = compile(scene, {});
     const double size = 2 * compiled.radius;
     const auto kernels = make_kernels(compiled, settings);

@@ -8,7 +8,6 @@
 
 #include <csgrt/renderer.hpp>
 
-#include "bench/parts.hpp"
 #include "catch.hpp"
 #include "device/choice.hpp"
 #include "device/compiling_device.hpp"
@@ -20,6 +19,7 @@
 #include "pipeline/scheduling/device_group.hpp"
 #include "reference/reference.hpp"
 #include "sanitized.hpp"
+#include "stress/parts.hpp"
 
 using namespace csgrt;
 using test::Call;
@@ -119,7 +119,7 @@ View first_hits() {
     return view;
 }
 
-Scene small_scene() { return bench::scene_of_parts(6); }
+Scene small_scene() { return stress::scene_of_parts(6); }
 
 /// On a native device, from its discovery to its end.
 std::vector<Case> native_cases() {

@@ -2,7 +2,7 @@
 // whatever the view and however small the batches.
 #include <csgrt/csgrt.hpp>
 
-#include "bench/stress/families.hpp"
+#include "stress/families.hpp"
 #include "catch.hpp"
 #include "compile/compiled_scene.hpp"
 #include "integration/every_type.hpp"

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <map>
 
-#include "bench/stress/build.hpp"
 #include "catch.hpp"
 #include "integration/same_answers.hpp"
+#include "stress/build.hpp"
 
 using namespace csgrt;
 using namespace csgrt::stress;

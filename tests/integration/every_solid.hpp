@@ -11,9 +11,9 @@
 
 #include <csgrt/csgrt.hpp>
 
-#include "bench/stress/build.hpp"
 #include "integration/same_answers.hpp"
 #include "integration/samples.hpp"
+#include "stress/build.hpp"
 
 namespace csgrt::every_solid {
 

@@ -10,12 +10,12 @@
 
 #include <csgrt/csgrt.hpp>
 
-#include "bench/stress/build.hpp"
 #include "integration/same_answers.hpp"
 #include "integration/samples.hpp"
 #include "integration/scenes.hpp"
 #include "oracle/shapes.hpp"
 #include "sanitized.hpp"
+#include "stress/build.hpp"
 
 using namespace csgrt;
 using namespace csgrt::stress;

@@ -5,7 +5,6 @@
 #include <tuple>
 
 #include "base/parallel.hpp"
-#include "bench/stress/build.hpp"
 #include "catch.hpp"
 #include "integration/deep_scenes.hpp"
 #include "integration/same_answers.hpp"
@@ -13,6 +12,7 @@
 #include "oracle/scene_judge.hpp"
 #include "scene/vector.hpp"
 #include "thrown.hpp"
+#include "stress/build.hpp"
 
 using namespace csgrt;
 

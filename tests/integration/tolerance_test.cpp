@@ -5,9 +5,9 @@
 
 #include <csgrt/csgrt.hpp>
 
-#include "bench/stress/build.hpp"
 #include "catch.hpp"
 #include "integration/same_answers.hpp"
+#include "stress/build.hpp"
 
 using namespace csgrt;
 using namespace csgrt::stress;

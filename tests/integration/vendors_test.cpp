@@ -9,11 +9,11 @@
 
 #include <csgrt/csgrt.hpp>
 
-#include "bench/stress/families.hpp"
 #include "device/choice.hpp"
 #include "integration/every_type.hpp"
 #include "integration/same_answers.hpp"
 #include "integration/scenes.hpp"
+#include "stress/families.hpp"
 
 using namespace csgrt;
 using namespace csgrt::test;

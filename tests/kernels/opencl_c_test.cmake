@@ -39,9 +39,9 @@ foreach(number double single relative)
 endforeach()
 check(${packets} FILES 0_cull_tiles.cl 1_packet_candidates.cl ${every_partition})
 check(${packets} -DCSGRT_PRIVATE_ENDS -DCSGRT_PREFETCH FILES 0_cull_tiles.cl packet/first_hits_packet.h first_hits.cl)
-# The laboratory's kernels in place of kernel 4, as bench/methods/device_method.cpp joins them.
-check(${double} -I${KERNELS}/../bench/methods/kernels -DKERNEL=evaluate_blist -DREGION_HOLDS=blist_holds
-    FILES ${every_partition} covered.h bit_sequential.cl bit_parallel.cl blist.cl each_partition.h status_tree.cl)
+if(BEHIND)  # another's kernels, with BEHIND_OPTIONS
+    check(${double} ${BEHIND_OPTIONS} FILES ${every_partition} ${BEHIND})
+endif()
 if(failed)
     message(FATAL_ERROR "not OpenCL C 1.2:\n${failed}")
 endif()

@@ -8,7 +8,7 @@
 #include "formats/json/parse_text.hpp"
 #include "integration/same_answers.hpp"
 #include "sanitized.hpp"
-#include "bench/stress/build.hpp"
+#include "stress/build.hpp"
 
 using namespace csgrt;
 

@@ -6,7 +6,7 @@
 #include <csgrt/csgrt.hpp>
 
 #include "base/laboratory.hpp"
-#include "bench/parts.hpp"
+#include "stress/parts.hpp"
 #include "catch.hpp"
 #include "device/program.hpp"
 #include "kernel_host/kernels.hpp"
@@ -86,7 +86,7 @@ TEST_CASE("the native device has the kernels of the default method and says so o
 
 TEST_CASE("the native device draws the same bits with any number of threads", "[device][promise:bits]") {
     if (!have_native()) return;
-    const Scene scene = bench::scene_of_parts(60);
+    const Scene scene = stress::scene_of_parts(60);
     Settings settings{.device = "native", .threads = 1};
     Renderer one(scene, {}, settings);
     const std::vector<Ray> rays = test::random_rays(one.model().bounds(), 2000);
@@ -101,7 +101,7 @@ TEST_CASE("the native device draws the same bits with any number of threads", "[
 
 TEST_CASE("native devices draw for several renderers at once", "[device][promise:models]") {
     if (!have_native()) return;
-    const Scene scene = bench::scene_of_parts(60);
+    const Scene scene = stress::scene_of_parts(60);
     Settings settings{.device = "native"};
     View view{.width = 150, .height = 150};
     const Image alone = Renderer(scene, {}, settings).render(view);

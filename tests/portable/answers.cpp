@@ -17,9 +17,9 @@
 
 #include <csgrt/csgrt.hpp>
 
-#include "bench/stress/families.hpp"
 #include "compile/compiled_scene.hpp"
 #include "compile/hash.hpp"
+#include "stress/families.hpp"
 
 namespace {
 

@@ -5,12 +5,12 @@
 
 #include <csgrt/scene_io.hpp>
 
-#include "bench/parts.hpp"
 #include "catch.hpp"
 #include "integration/same_answers.hpp"
 #include "integration/scenes.hpp"
 #include "reference/intersect.hpp"
 #include "sanitized.hpp"
+#include "stress/parts.hpp"
 
 using namespace csgrt;
 
@@ -35,7 +35,7 @@ TEST_CASE("a solid that a ray meets is near it, whatever the boxes say of it") {
     std::vector<Scene> scenes;
     for (const std::string& file : test::scene_files()) scenes.push_back(load_scene(file));
     REQUIRE(!scenes.empty());
-    scenes.push_back(bench::scene_of_parts(300));
+    scenes.push_back(stress::scene_of_parts(300));
     std::size_t met = 0, tried = 0, all = 0;
     for (const Scene& scene : scenes) {
         INFO(scene.title);
@@ -64,7 +64,7 @@ TEST_CASE("a solid that a ray meets is near it, whatever the boxes say of it") {
 }
 
 TEST_CASE("solids near a ray are the same whatever its length, and from wherever it starts") {
-    const CompiledScene compiled = compile(bench::scene_of_parts(300));
+    const CompiledScene compiled = compile(stress::scene_of_parts(300));
     const NearSolids solids(compiled);
     for (const Ray& ray : test::random_rays(compiled.bounds, 50)) {
         const std::vector<std::uint32_t> expected = near(solids, ray);

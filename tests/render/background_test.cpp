@@ -2,15 +2,15 @@
 #include <csgrt/renderer.hpp>
 
 #include "base/srgb.hpp"
-#include "bench/parts.hpp"
 #include "catch.hpp"
 #include "integration/same_answers.hpp"
+#include "stress/parts.hpp"
 
 using namespace csgrt;
 
 TEST_CASE("the background is opaque, or with View::transparent nothing; `region` tells what is hit",
           "[promise:colors]") {
-    Scene scene = bench::scene_of_parts(20);
+    Scene scene = stress::scene_of_parts(20);
     scene.background = {0.2, 0.5, 1};
     Settings by_reference{.reference = true};
     Renderer renderer(scene, {}, test::on_device()), reference(scene, {}, by_reference);

@@ -10,11 +10,11 @@
 
 #include <csgrt/csgrt.hpp>
 
-#include "bench/parts.hpp"
 #include "catch.hpp"
 #include "cli/held_renderer.hpp"
 #include "integration/same_answers.hpp"
 #include "reference/reference_kernels.hpp"
+#include "stress/parts.hpp"
 
 using namespace csgrt;
 using namespace std::chrono_literals;
@@ -46,7 +46,7 @@ View view_from(double azimuth, bool every_partition) {
 
 /// What a takeover needs of a Renderer.
 struct Compiled {
-    Scene scene = bench::scene_of_parts(20);
+    Scene scene = stress::scene_of_parts(20);
     CompiledScene compiled = compile(scene, {});
     Settings settings;
     std::unique_ptr<ReferenceKernels> kernels = make_kernels(compiled, settings);
@@ -77,7 +77,7 @@ void wait_for_job(const DeviceTakeover& takeover) {
 
 TEST_CASE("frames before, while and after a GPU takes over have the same bits", "[promise:devices]") {
     if (!can_take_over()) return;
-    const Scene scene = bench::scene_of_parts(20);
+    const Scene scene = stress::scene_of_parts(20);
     Settings settings{.device = "native"};
     Renderer native(scene, {}, settings);
     const std::string gpu_name = pocl_devices()[0].info.name, native_name = native.statistics().device;
@@ -156,7 +156,7 @@ TEST_CASE("where an edit brings a new type of solid, the native device draws unt
 TEST_CASE("who waits for a GPU has it from the first frame on", "[promise:devices]") {
     if (!can_take_over()) return;
     const std::string gpu_name = pocl_devices()[0].info.name;
-    const Scene scene = bench::scene_of_parts(5);
+    const Scene scene = stress::scene_of_parts(5);
     const PretendedGpu gpu(pocl);
     for (const char* choice : {"", "gpu"}) {
         INFO("device " << choice);
@@ -173,7 +173,7 @@ TEST_CASE("who waits for a GPU has it from the first frame on", "[promise:device
 
 TEST_CASE("a GPU that fails is a warning, and an error of who named it", "[promise:failures]") {
     if (!can_take_over()) return;
-    const Scene scene = bench::scene_of_parts(5);
+    const Scene scene = stress::scene_of_parts(5);
     const PretendedGpu gpu(pocl, true);
     Settings settings;
     const auto wait = [](Renderer& renderer) {
@@ -300,7 +300,7 @@ TEST_CASE("a Renderer goes while kernels are compiled, and leaves nothing runnin
     if (!can_take_over()) return;
     const PretendedGpu gpu(pocl);
     for (int i = 0; i < 3; ++i) {
-        Renderer renderer(bench::scene_of_parts(5), {}, {});
+        Renderer renderer(stress::scene_of_parts(5), {}, {});
         if (i > 0) renderer.render(view_from(35, i == 1));
     }
 }
@@ -314,7 +314,7 @@ TEST_CASE("a command whose picture is drawn does not wait for a compiler", "[.le
     const PretendedGpu gpu(pocl);
     std::atexit([] { std::printf("handlers ran\n"); });
     {
-        cli::HeldRenderer renderer(Renderer(bench::scene_of_parts(5)));
+        cli::HeldRenderer renderer(Renderer(stress::scene_of_parts(5)));
         renderer->render(view_from(35, true));
         CHECK(!renderer->statistics().awaited_device.empty());
     }
@@ -327,7 +327,7 @@ TEST_CASE("a process that awaits no compiler ends as usual") {
     if (find_native_devices().empty()) return;
     Settings settings{.device = "native"};
     {
-        cli::HeldRenderer renderer(Renderer(bench::scene_of_parts(5), {}, settings));
+        cli::HeldRenderer renderer(Renderer(stress::scene_of_parts(5), {}, settings));
         renderer->render(view_from(35, true));
     }
     CHECK(cli::end_process(7) == 7);

@@ -1,7 +1,7 @@
 // A device that gives no answer: the call ends in time, and nothing waits for its driver any more.
 #include <optional>
 
-#include "bench/parts.hpp"
+#include "stress/parts.hpp"
 #include "base/clock.hpp"
 #include "catch.hpp"
 #include "device/discovery.hpp"
@@ -27,7 +27,7 @@ TEST_CASE("a device that never answers ends the call in time, and its Renderer i
     const NativeTable table(&faulty.functions());
     Settings settings{.device = "native", .threads = 2};
     settings.device_timeout = timeout;
-    const Scene scene = bench::scene_of_parts(6);
+    const Scene scene = stress::scene_of_parts(6);
     View every{.width = 40, .height = 24}, first = every;
     first.every_partition = false;
     const auto follow = GENERATE(false, true);  // by a thread that works for the caller's

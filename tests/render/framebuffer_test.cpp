@@ -3,9 +3,9 @@
 
 #include <csgrt/renderer.hpp>
 
-#include "bench/parts.hpp"
 #include "catch.hpp"
 #include "integration/same_answers.hpp"
+#include "stress/parts.hpp"
 
 using namespace csgrt;
 
@@ -35,7 +35,7 @@ void require_redrawn(Renderer& renderer, Framebuffer& framebuffer, const View& v
 }  // namespace
 
 TEST_CASE("a framebuffer holds the last frame alone", "[promise:models]") {
-    Scene scene = bench::scene_of_parts(20);
+    Scene scene = stress::scene_of_parts(20);
     Renderer renderer(scene, {}, test::on_device());
     Settings by_reference{.reference = true};
     Renderer reference(scene, {}, by_reference);
@@ -95,7 +95,7 @@ TEST_CASE("a framebuffer holds the last frame alone", "[promise:models]") {
 
 TEST_CASE("a framebuffer with memory for a few rays at a time, and after frames that were stopped",
           "[promise:models][promise:interrupts]") {
-    const Scene scene = bench::scene_of_parts(20);
+    const Scene scene = stress::scene_of_parts(20);
     Renderer renderer(scene, {}, test::on_device());
     renderer.render({.width = 8, .height = 8, .camera = {}, .every_partition = false});
     Settings little = test::on_device();

@@ -5,13 +5,13 @@
 
 #include <csgrt/csgrt.hpp>
 
-#include "bench/parts.hpp"
 #include "catch.hpp"
 #include "device/buffer.hpp"
 #include "device/discovery.hpp"
 #include "device/program.hpp"
 #include "integration/same_answers.hpp"
 #include "thrown.hpp"
+#include "stress/parts.hpp"
 
 using namespace csgrt;
 
@@ -37,7 +37,7 @@ bool is_interrupted(const Call& call) {
 TEST_CASE("a frame and a list of rays: progress ends them before they begin, and keeps what is finished",
           "[promise:interrupts]") {
     const bool reference = GENERATE(false, true), every = GENERATE(false, true);
-    const Scene scene = bench::scene_of_parts(20);
+    const Scene scene = stress::scene_of_parts(20);
     Renderer plain(scene, {}, settings_for(reference));
     View view = picture;
     view.every_partition = every;

@@ -9,10 +9,10 @@
 
 #include <csgrt/csgrt.hpp>
 
-#include "bench/stress/random.hpp"
 #include "integration/same_answers.hpp"
 #include "integration/scenes.hpp"
 #include "sanitized.hpp"
+#include "stress/random.hpp"
 
 using namespace csgrt;
 

@@ -1,11 +1,11 @@
 // Settings::check: the reference looks at batches of what devices draw and shoot.
-#include "bench/parts.hpp"
 #include "catch.hpp"
 #include "device/discovery.hpp"
 #include "device/faulty_opencl.hpp"
 #include "integration/same_answers.hpp"
 #include "integration/scenes.hpp"
 #include "native/driver.hpp"
+#include "stress/parts.hpp"
 
 using namespace csgrt;
 using test::Call;
@@ -39,7 +39,7 @@ TEST_CASE("a bit that a device gets wrong is found where the batch is checked, a
     if (find_native_devices().empty()) return;
     FaultyOpenCl faulty(native::functions());
     const NativeTable table(&faulty.functions());
-    const Scene scene = bench::scene_of_parts(20);
+    const Scene scene = stress::scene_of_parts(20);
     for (const bool every : {true, false}) {
         Renderer renderer(scene, {}, checked(3));
         const auto draw = [&] { return failure([&] { renderer.render(view_of(every)); }); };

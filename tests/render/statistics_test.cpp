@@ -1,7 +1,7 @@
 // What a call says that it took.
 #include <csgrt/renderer.hpp>
 
-#include "bench/parts.hpp"
+#include "stress/parts.hpp"
 #include "catch.hpp"
 #include "base/clock.hpp"
 #include "integration/same_answers.hpp"
@@ -9,7 +9,7 @@
 using namespace csgrt;
 
 TEST_CASE("a call's time and the building of its kernels are told apart") {
-    Renderer renderer(bench::scene_of_parts(20), {}, test::on_device());
+    Renderer renderer(stress::scene_of_parts(20), {}, test::on_device());
     View view{.width = 8, .height = 8};
     for (const bool every_partition : {false, true}) {
         view.every_partition = every_partition;
@@ -31,7 +31,7 @@ TEST_CASE(
     "segments and partitions are counted where every partition is computed, also on the rays of first hits that need "
     "it",
     "[promise:pictures]") {
-    Renderer renderer(bench::scene_of_parts(20), {}, test::on_device());
+    Renderer renderer(stress::scene_of_parts(20), {}, test::on_device());
     View view{.width = 32, .height = 32};
     const Image image = renderer.render(view);
     const Statistics every = renderer.statistics();

@@ -5,9 +5,9 @@
 
 #include <csgrt/renderer.hpp>
 
-#include "bench/stress/build.hpp"
 #include "catch.hpp"
 #include "thrown.hpp"
+#include "stress/build.hpp"
 
 using namespace csgrt;
 using namespace csgrt::stress;

@@ -5,12 +5,12 @@
 #include <string>
 #include <unordered_map>
 
-#include "bench/parts.hpp"
-#include "bench/stress/build.hpp"
 #include "catch.hpp"
 #include "compile/compiled_scene.hpp"
 #include "compile/solids/pack_one.hpp"
 #include "sanitized.hpp"
+#include "stress/build.hpp"
+#include "stress/parts.hpp"
 
 using namespace csgrt;
 
@@ -40,7 +40,7 @@ void require_as_one_by_one(const Scene& scene, const CompiledScene& compiled) {
 }  // namespace
 
 TEST_CASE("batches of solids give what packing them one by one gives") {
-    const Scene scene = bench::scene_of_parts(70'000);  // more than one batch
+    const Scene scene = stress::scene_of_parts(70'000);  // more than one batch
     const CompiledScene compiled = compile(scene);
     if (test::sanitized) return;  // batches have been seen; each solid alone is by other tests
     CHECK(compile(scene).hash == compiled.hash);

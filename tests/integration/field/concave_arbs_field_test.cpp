@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "integration/field/judge.hpp"
-#include "bench/stress/build.hpp"
+#include "stress/build.hpp"
 
 using namespace csgrt;
 using namespace csgrt::test;

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "bench/stress/build.hpp"
+#include "stress/build.hpp"
 
 namespace csgrt::stress {
 

@@ -8,7 +8,7 @@
 #include "kernels/geometry/kernel_answer.hpp"
 #include "oracle/scene_solid.hpp"
 #include "oracle/shapes.hpp"
-#include "bench/stress/build.hpp"
+#include "stress/build.hpp"
 
 using namespace csgrt;
 using namespace csgrt::stress;

@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bench/stress/build.hpp"
 #include "integration/field/judge.hpp"
 #include "oracle/concave_arb.hpp"
 #include "scene/faults/check_faults.hpp"
+#include "stress/build.hpp"
 
 using namespace csgrt;
 using namespace csgrt::stress;

@@ -15,7 +15,7 @@
 #include "formats/brlcad/g/brlcad_g_writer.hpp"
 #include "formats/brlcad/brlcad_models.hpp"
 #include "formats/text_source.hpp"
-#include "bench/stress/build.hpp"
+#include "stress/build.hpp"
 #include "thrown.hpp"
 
 using namespace csgrt;

@@ -11,7 +11,7 @@
 #include "integration/field/judge.hpp"
 #include "oracle/mesh_answer.hpp"
 #include "oracle/mesh_judge.hpp"
-#include "bench/stress/build.hpp"
+#include "stress/build.hpp"
 
 using namespace csgrt;
 using namespace csgrt::test;

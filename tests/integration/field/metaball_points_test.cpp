@@ -6,10 +6,10 @@
 #include <cmath>
 #include <numeric>
 
-#include "bench/stress/build.hpp"
 #include "integration/field/judge.hpp"
 #include "kernels/geometry/kernel_answer.hpp"
 #include "oracle/solids/all.hpp"
+#include "stress/build.hpp"
 
 using namespace csgrt;
 using namespace csgrt::stress;

@@ -4,7 +4,7 @@
 #include "integration/field/judge.hpp"
 #include "formats/json/parse_text.hpp"
 #include "oracle/scene_solid.hpp"
-#include "bench/stress/build.hpp"
+#include "stress/build.hpp"
 
 using namespace csgrt;
 using namespace csgrt::stress;

@@ -4,9 +4,9 @@
 
 #include <cmath>
 
-#include "bench/stress/build.hpp"
 #include "integration/field/judge.hpp"
 #include "scene/warning_texts.hpp"
+#include "stress/build.hpp"
 
 using namespace csgrt;
 using namespace csgrt::stress;

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <limits>
 
-#include "bench/stress/build.hpp"
 #include "integration/field/judge.hpp"
 #include "oracle/solids/all.hpp"
+#include "stress/build.hpp"
 
 using namespace csgrt;
 using namespace csgrt::stress;

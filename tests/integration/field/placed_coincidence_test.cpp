@@ -1,7 +1,7 @@
 // Solids that share surfaces in a frame of their own, placed far away and turned: what coincides there coincides
 // wherever the frame is put. Judged by the oracle, for which a skin that only rounding has made is none.
 #include "integration/field/judge.hpp"
-#include "bench/stress/build.hpp"
+#include "stress/build.hpp"
 
 using namespace csgrt;
 using namespace csgrt::test;

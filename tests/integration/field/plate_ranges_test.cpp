@@ -2,12 +2,12 @@
 // interval as that of any solid: what is right is the whole line, cut by hand.
 #include <string>
 
-#include "bench/stress/build.hpp"
 #include "catch.hpp"
 #include "formats/json/parse_text.hpp"
 #include "integration/same_answers.hpp"
 #include "integration/stress/check.hpp"
 #include "sanitized.hpp"
+#include "stress/build.hpp"
 
 using namespace csgrt;
 using namespace csgrt::stress;

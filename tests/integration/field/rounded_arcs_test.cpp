@@ -6,10 +6,10 @@
 #include <cstdio>
 #include <string>
 
-#include "bench/stress/build.hpp"
 #include "formats/brlcad/brlcad_asc_text.hpp"
 #include "formats/json/parse_text.hpp"
 #include "integration/field/judge.hpp"
+#include "stress/build.hpp"
 
 using namespace csgrt;
 using namespace csgrt::stress;

@@ -9,7 +9,7 @@
 #include "catch.hpp"
 #include "integration/same_answers.hpp"
 #include "integration/samples.hpp"
-#include "bench/stress/build.hpp"
+#include "stress/build.hpp"
 
 using namespace csgrt;
 using test::Sample;

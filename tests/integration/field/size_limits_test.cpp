@@ -11,7 +11,7 @@
 #include "integration/field/judge.hpp"
 #include "oracle/random.hpp"
 #include "integration/scenes.hpp"
-#include "bench/stress/build.hpp"
+#include "stress/build.hpp"
 #include "thrown.hpp"
 
 using namespace csgrt;

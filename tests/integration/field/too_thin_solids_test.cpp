@@ -6,7 +6,7 @@
 
 #include "integration/field/judge.hpp"
 #include "scene/warning_texts.hpp"
-#include "bench/stress/build.hpp"
+#include "stress/build.hpp"
 
 using namespace csgrt;
 using namespace csgrt::stress;

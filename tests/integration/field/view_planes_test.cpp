@@ -4,12 +4,12 @@
 #include <string>
 #include <vector>
 
-#include "bench/stress/build.hpp"
 #include "catch.hpp"
 #include "integration/same_answers.hpp"
 #include "integration/samples.hpp"
 #include "integration/stress/check.hpp"
 #include "sanitized.hpp"
+#include "stress/build.hpp"
 
 using namespace csgrt;
 using namespace csgrt::stress;

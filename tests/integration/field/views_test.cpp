@@ -19,7 +19,7 @@
 #include "formats/json/write/writer.hpp"
 #include "formats/json/parse_text.hpp"
 #include "integration/same_answers.hpp"
-#include "bench/stress/build.hpp"
+#include "stress/build.hpp"
 #include "integration/stress/check.hpp"
 #include "thrown.hpp"
 

@@ -8,13 +8,13 @@
 #include <string>
 #include <vector>
 
-#include "bench/stress/build.hpp"
 #include "catch.hpp"
 #include "formats/json/parse_text.hpp"
 #include "integration/same_answers.hpp"
 #include "integration/stress/check.hpp"
 #include "integration/tree_value.hpp"
 #include "sanitized.hpp"
+#include "stress/build.hpp"
 
 using namespace csgrt;
 using namespace csgrt::stress;

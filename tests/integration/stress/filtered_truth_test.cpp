@@ -4,8 +4,8 @@
 
 #include <cstdlib>
 
-#include "bench/stress/families.hpp"
 #include "integration/stress/expected.hpp"
+#include "stress/families.hpp"
 
 using namespace csgrt;
 using namespace csgrt::test;

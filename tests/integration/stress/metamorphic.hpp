@@ -5,8 +5,8 @@
 #include <cmath>
 #include <vector>
 
-#include "bench/stress/rewrite.hpp"
 #include "integration/stress/sequence.hpp"
+#include "stress/rewrite.hpp"
 
 namespace csgrt::test {
 

@@ -17,7 +17,7 @@
 
 #include "oracle/filtered_solid.hpp"
 #include "oracle/scene_oracle.hpp"
-#include "bench/stress/families.hpp"
+#include "stress/families.hpp"
 
 namespace csgrt::test {
 

@@ -9,12 +9,12 @@
 
 #include <csgrt/renderer.hpp>
 
-#include "bench/parts.hpp"
+#include "stress/parts.hpp"
 #include "catch.hpp"
 #include "integration/same_answers.hpp"
 #include "kernels/host_kernels.hpp"
 #include "reference/reference.hpp"
-#include "bench/stress/build.hpp"
+#include "stress/build.hpp"
 
 using namespace csgrt;
 
@@ -91,7 +91,7 @@ std::size_t require_same(const CompiledScene& compiled, const View& view) {
 TEST_CASE("tiles see the same on a device and on the host") {
     for (const std::uint32_t parts : {1u, 20u, 3000u}) {
         INFO(parts << " parts");
-        const CompiledScene compiled = compile(bench::scene_of_parts(parts), {});
+        const CompiledScene compiled = compile(stress::scene_of_parts(parts), {});
         View view;
         view.width = 203;  // tiles that no group of work-items is filled by
         view.height = 93;

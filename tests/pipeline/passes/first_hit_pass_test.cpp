@@ -10,7 +10,7 @@
 using namespace csgrt;
 
 TEST_CASE("the first-hit pass draws the tiles that are listed, in the order of the list") {
-    test::OnDevice on(bench::scene_of_parts(200), test::small_view(false));
+    test::OnDevice on(stress::scene_of_parts(200), test::small_view(false));
     FirstHitPass pass(on.device, on.compiled, on.settings);
     // All tiles of the screen are culled; half of those that see anything are drawn.
     const std::uint32_t tiles = kernel::tiles_across(on.frame.screen) * kernel::tiles_down(on.frame.screen);

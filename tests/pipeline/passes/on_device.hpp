@@ -1,11 +1,11 @@
 // A scene on a device, for tests of passes: no image, no schedule.
 #pragma once
 
-#include "bench/parts.hpp"
 #include "integration/same_answers.hpp"
 #include "pipeline/passes/batch_buffers.hpp"
 #include "pipeline/passes/scene_tables.hpp"
 #include "reference/reference.hpp"
+#include "stress/parts.hpp"
 
 namespace csgrt::test {
 

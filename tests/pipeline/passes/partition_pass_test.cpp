@@ -14,7 +14,7 @@
 using namespace csgrt;
 
 TEST_CASE("the partition pass draws the pixels that are listed") {
-    test::OnDevice on(bench::scene_of_parts(200), test::small_view(true));
+    test::OnDevice on(stress::scene_of_parts(200), test::small_view(true));
     PartitionPass pass(on.device, on.compiled, *on.kernels, on.settings);
     const std::uint32_t rays = kernel::tiles_across(on.frame.screen) * kernel::tiles_down(on.frame.screen) * tile_rays;
     std::vector<std::uint32_t> list;
@@ -44,7 +44,7 @@ TEST_CASE("the partition pass draws the pixels that are listed") {
 }
 
 TEST_CASE("the partition pass answers rays as they come") {
-    test::OnDevice on(bench::scene_of_parts(200));
+    test::OnDevice on(stress::scene_of_parts(200));
     PartitionPass pass(on.device, on.compiled, *on.kernels, on.settings);
     const std::vector<Ray> rays = test::random_rays(on.compiled.bounds, 200);
     PreparedFrame prepared = prepare_rays(on.compiled, 200);
@@ -62,7 +62,7 @@ TEST_CASE("the partition pass answers rays as they come") {
 }
 
 TEST_CASE("kernels that are queued into too little memory write nothing, and report what the rays need") {
-    test::OnDevice on(bench::scene_of_parts(200), test::small_view(true));
+    test::OnDevice on(stress::scene_of_parts(200), test::small_view(true));
     PartitionPass pass(on.device, on.compiled, *on.kernels, on.settings);
     const std::uint32_t across = kernel::tiles_across(on.frame.screen),
                         tiles = across * kernel::tiles_down(on.frame.screen);

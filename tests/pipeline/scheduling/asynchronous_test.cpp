@@ -8,7 +8,7 @@
 
 #include <csgrt/renderer.hpp>
 
-#include "bench/parts.hpp"
+#include "stress/parts.hpp"
 #include "catch.hpp"
 #include "pipeline/passes/tile_list.hpp"
 #include "pipeline/passes/first_hits.hpp"
@@ -20,7 +20,7 @@
 #include "integration/scenes.hpp"
 #include "reference/reference.hpp"
 #include "sanitized.hpp"
-#include "bench/stress/build.hpp"
+#include "stress/build.hpp"
 
 using namespace csgrt;
 
@@ -46,7 +46,7 @@ std::vector<std::uint64_t> rooms(std::uint64_t least, std::uint64_t end) {
 }  // namespace
 
 TEST_CASE("asynchronous: the picture is made, whatever was there before and however many batches there are") {
-    Scene scene = bench::scene_of_parts(20);
+    Scene scene = stress::scene_of_parts(20);
     scene.background = {0.2, 0, 0.4};
     const bool every_partition = GENERATE(false, true);
     const std::uint64_t room =
@@ -209,7 +209,7 @@ struct Lined {
 TEST_CASE("asynchronous: batches that run beside each other") {
     const bool every_partition = GENERATE(false, true);
     for (const std::uint64_t most_rays : {2048, 16'384}) {
-        Lined lined(bench::scene_of_parts(20), 0, most_rays);
+        Lined lined(stress::scene_of_parts(20), 0, most_rays);
         for (const double azimuth : {35, 120}) {
             lined.azimuth = azimuth;
             CHECK(lined.draw(403, 361, every_partition, 1 << 20).batches > 3);
@@ -219,7 +219,7 @@ TEST_CASE("asynchronous: batches that run beside each other") {
 }
 
 TEST_CASE("asynchronous: few channels, of batches that run beside each other, in little memory") {
-    const Scene scene = bench::scene_of_parts(20);
+    const Scene scene = stress::scene_of_parts(20);
     for (const std::uint64_t room : rooms(200'000, 5'000'000)) {
         INFO("room " << room);
         Lined lined(scene, room, 4096);
@@ -244,7 +244,7 @@ TEST_CASE("asynchronous: deep rays beside others, in little memory and in much",
 
 TEST_CASE("a picture in place after a list of rays, in little memory") {
     const test::ByOpenCl lists;
-    const Scene scene = bench::scene_of_parts(20);
+    const Scene scene = stress::scene_of_parts(20);
     for (const std::uint64_t room : rooms(60'000, 3'000'000)) {
         INFO("room " << room);
         Lined lined(scene, room, Pipeline::most_rays_drawn, Readback::by_device);
@@ -256,19 +256,19 @@ TEST_CASE("a picture in place after a list of rays, in little memory") {
 }
 
 TEST_CASE("asynchronous: parts of a frame one after the other") {
-    Lined lined(bench::scene_of_parts(20));
+    Lined lined(stress::scene_of_parts(20));
     const bool every_partition = GENERATE(false, true);
     for (const std::uint64_t tiles : {7, 40, 1000}) lined.draw(203, 161, every_partition, tiles * tile_rays);
 }
 
 TEST_CASE("asynchronous: a picture of several copies, each put as it comes") {
-    Lined lined(bench::scene_of_parts(20));
+    Lined lined(stress::scene_of_parts(20));
     lined.draw(700, 500, false, 1 << 20);
     lined.draw(900, 800, true, 1 << 20);
 }
 
 TEST_CASE("asynchronous: a larger frame after one that was interrupted") {
-    Lined lined(bench::scene_of_parts(20));
+    Lined lined(stress::scene_of_parts(20));
     const bool every_partition = GENERATE(false, true);
     int told = 0;
     CHECK_THROWS_AS(lined.draw(90, 80, every_partition, 30 * tile_rays, [&](double) { return ++told < 3; }), Error);
@@ -278,7 +278,7 @@ TEST_CASE("asynchronous: a larger frame after one that was interrupted") {
 }
 
 TEST_CASE("asynchronous: frames that are interrupted while batches are queued, and others at once") {
-    Lined lined(bench::scene_of_parts(20), 0, 16'384);
+    Lined lined(stress::scene_of_parts(20), 0, 16'384);
     for (int i = 0; i < 12; ++i) {
         lined.azimuth = 30 * i;
         int told = 0;
@@ -290,7 +290,7 @@ TEST_CASE("asynchronous: frames that are interrupted while batches are queued, a
 }
 
 TEST_CASE("asynchronous: every partition of batches that need more than those before") {
-    Scene scene = bench::scene_of_parts(20);
+    Scene scene = stress::scene_of_parts(20);
     for (int i = 0; i < 40; ++i) {  // a pile that a side shows one in front of the other
         Solid ball{"pile" + std::to_string(i), stress::ball({20.0 + 3 * i, 0, 0}, 2), {}};
         scene.top.push_back(ball.name);
@@ -314,7 +314,7 @@ TEST_CASE("asynchronous: every partition of batches that need more than those be
 }
 
 TEST_CASE("asynchronous: every partition of batches that need more than those before, in little memory") {
-    const Scene scene = bench::scene_of_parts(20);
+    const Scene scene = stress::scene_of_parts(20);
     std::uint32_t again = 0;
     for (const std::uint64_t room : rooms(500'000, 40'000'000)) {
         INFO("room " << room);
@@ -417,7 +417,7 @@ TEST_CASE("asynchronous: few tiles with more to see than all others, whose rays 
 
 TEST_CASE("asynchronous: whole lines of a wide picture, in little memory and in much") {
     const test::ByOpenCl lists;
-    const Scene scene = bench::scene_of_parts(20);
+    const Scene scene = stress::scene_of_parts(20);
     const bool every_partition = GENERATE(false, true);
     for (const std::uint64_t room : rooms(30'000, 6'000'000)) {
         INFO("every partition: " << every_partition << ", room " << room);
@@ -430,7 +430,7 @@ TEST_CASE("asynchronous: whole lines of a wide picture, in little memory and in 
 }
 
 TEST_CASE("asynchronous: parts of one device's picture, a frame like the last one, and one that sees nothing") {
-    Lined lined(bench::scene_of_parts(20));
+    Lined lined(stress::scene_of_parts(20));
     DeviceGroup pipelines(plan_devices(lined.settings).first, lined.compiled, *lined.kernels, lined.settings,
                           Readback::asynchronous);
     View view{.width = 1600, .height = 1000};

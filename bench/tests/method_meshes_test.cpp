@@ -10,8 +10,8 @@
 
 #include "bench/chart/truth.hpp"
 #include "bench/methods/list.hpp"
-#include "bench/stress/random.hpp"
 #include "catch.hpp"
+#include "stress/random.hpp"
 
 using namespace csgrt;
 using namespace csgrt::bench;

@@ -1,4 +1,4 @@
-// Pinches, tips and poles before the oracle (bench/stress/pinch.cpp), each kind of solid by itself.
+// Pinches, tips and poles before the oracle (tests/stress/pinch.cpp), each kind of solid by itself.
 #include <cstdio>
 
 #include "base/laboratory.hpp"
@@ -7,7 +7,7 @@
 #include "integration/field/judge.hpp"
 #include "kernels/geometry/kernel_answer.hpp"
 #include "oracle/solids/all.hpp"
-#include "bench/stress/build.hpp"
+#include "stress/build.hpp"
 
 using namespace csgrt;
 using namespace csgrt::test;

@@ -5,7 +5,7 @@
 
 #include <csgrt/scene.hpp>
 
-namespace csgrt::bench {
+namespace csgrt::stress {
 
 /// Exactly `solids` solids (3 at least), about four a region: tiles with holes, bushings, flanges and rounded tiles
 /// on a square grid on one plate, in groups of 16, each with its own sizes and its place by a matrix; one in four is
@@ -13,4 +13,4 @@ namespace csgrt::bench {
 /// are. The same numbers on every machine: nothing is used but + - * / sqrt and whole numbers.
 Scene scene_of_parts(std::uint32_t solids, std::uint64_t seed = 1);
 
-}  // namespace csgrt::bench
+}  // namespace csgrt::stress

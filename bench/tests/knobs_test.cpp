@@ -5,11 +5,11 @@
 #include <csgrt/csgrt.hpp>
 
 #include "bench/chart/truth.hpp"
-#include "bench/method_solids.hpp"
 #include "bench/methods/list.hpp"
 #include "bench/methods/stretches.hpp"
 #include "catch.hpp"
 #include "compile/compiled_scene.hpp"
+#include "method_solids.hpp"
 
 using namespace csgrt;
 using namespace csgrt::bench;

@@ -1,12 +1,12 @@
 // Interval arithmetic and the functions of solids along rays.
 #include <cmath>
 
-#include "bench/method_solids.hpp"
 #include "bench/methods/interval.hpp"
 #include "bench/methods/ray_forms.hpp"
 #include "bench/methods/scene_rays.hpp"
 #include "catch.hpp"
 #include "compile/compiled_scene.hpp"
+#include "method_solids.hpp"
 
 using namespace csgrt;
 using namespace csgrt::bench;

@@ -7,9 +7,9 @@
 #include <csgrt/csgrt.hpp>
 
 #include "bench/methods/facets.hpp"
-#include "bench/stress/random.hpp"
 #include "catch.hpp"
 #include "scene/vector.hpp"
+#include "stress/random.hpp"
 
 using namespace csgrt;
 using namespace csgrt::bench;

@@ -30,7 +30,7 @@ struct StressScene {
     std::vector<std::vector<Stretch>> known;
 };
 
-/// Their names, in the order in which they are described in bench/stress/README.md.
+/// Their names, in the order in which they are described in tests/stress/README.md.
 std::vector<std::string> families();
 
 /// `times`: as many times as many rays, of which the first are the usual ones.

@@ -8,10 +8,9 @@
 
 #include "bench/chart/truth.hpp"
 #include "bench/methods/method.hpp"
-#include "bench/stress/build.hpp"
 #include "catch.hpp"
 #include "device/compiling_device.hpp"
-#include "device/discovery.hpp"
+#include "stress/build.hpp"
 
 using namespace csgrt;
 using namespace csgrt::bench;

@@ -4,16 +4,16 @@
 
 #include <csgrt/renderer.hpp>
 
-#include "bench/parts.hpp"
 #include "catch.hpp"
 #include "compile/compiled_scene.hpp"
 #include "sanitized.hpp"
+#include "stress/parts.hpp"
 
 using namespace csgrt;
 
 TEST_CASE("scenes of parts have the solids asked for and compile") {
     for (const std::uint32_t count : {3u, 4u, 7u, 100u, 101u, 102u, 103u, std::uint32_t{test::tries(2000)}}) {
-        const Scene scene = bench::scene_of_parts(count);
+        const Scene scene = stress::scene_of_parts(count);
         CHECK(validate(scene).empty());
         const CompiledScene compiled = compile(scene);
         CHECK(compiled.solids.size() == count);
@@ -23,16 +23,16 @@ TEST_CASE("scenes of parts have the solids asked for and compile") {
 }
 
 TEST_CASE("a seed gives one scene, another seed another") {
-    const std::uint64_t hash = compile(bench::scene_of_parts(500)).hash;
-    CHECK(compile(bench::scene_of_parts(500)).hash == hash);
-    CHECK(compile(bench::scene_of_parts(500, 2)).hash != hash);
+    const std::uint64_t hash = compile(stress::scene_of_parts(500)).hash;
+    CHECK(compile(stress::scene_of_parts(500)).hash == hash);
+    CHECK(compile(stress::scene_of_parts(500, 2)).hash != hash);
 }
 
 TEST_CASE("whatever their number, parts cover the picture about alike, about as deep") {
     std::vector<double> covered, deep;
     for (const std::uint32_t count : {100u, 1000u, 10'000u}) {
         if (test::sanitized && count > 1000) break;
-        Renderer renderer(bench::scene_of_parts(count));
+        Renderer renderer(stress::scene_of_parts(count));
         View view;
         view.width = view.height = 96;
         const Image image = renderer.render(view);

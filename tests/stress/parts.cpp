@@ -5,18 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "stress/build.hpp"
+#include "build.hpp"
 
-namespace csgrt::bench {
-
+namespace csgrt::stress {
 namespace {
-
-using stress::ball;
-using stress::box;
-using stress::cylinder;
-using stress::leaf;
-using stress::operate;
-using stress::Random;
 
 constexpr double pitch = 20;  // millimetres from part to part
 constexpr std::uint32_t group_size = 16;
@@ -156,4 +148,4 @@ private:
 
 Scene scene_of_parts(std::uint32_t solids, std::uint64_t seed) { return Writer(solids, seed).write(); }
 
-}  // namespace csgrt::bench
+}  // namespace csgrt::stress
