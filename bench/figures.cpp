@@ -22,24 +22,36 @@ double Figures::time(const std::string& name) const {
     return -1;
 }
 
+namespace {
+
+/// Calls field(place in an element of the file, member) for all but the times.
+template <class AnyFigures, class Field>
+void for_fields(AnyFigures& f, const Field& field) {
+    field("/workload", f.workload);
+    field("/device", f.device);
+    field("/mode", f.mode);
+    field("/size", f.size);
+    field("/frames", f.frames);
+    field("/orbit", f.orbit);
+    field("/solids", f.solids);
+    field("/regions", f.regions);
+    field("/segments", f.segments);
+    field("/partitions/used", f.partitions_used);
+    field("/partitions/allocated", f.partitions_allocated);
+    field("/segment_and_partition_bytes", f.segment_and_partition_bytes);
+    field("/device_bytes", f.device_bytes);
+}
+
+}  // namespace
+
 void save(const std::vector<Figures>& all, const std::string& path) {
     Json list = Json::array();
     for (const Figures& f : all) {
-        Json ms = Json::object();
-        for (const auto& [name, value] : f.ms) ms[name] = value;
-        list.push_back({{"workload", f.workload},
-                        {"device", f.device},
-                        {"mode", f.mode},
-                        {"size", f.size},
-                        {"frames", f.frames},
-                        {"orbit", f.orbit},
-                        {"solids", f.solids},
-                        {"regions", f.regions},
-                        {"segments", f.segments},
-                        {"partitions", {{"used", f.partitions_used}, {"allocated", f.partitions_allocated}}},
-                        {"segment_and_partition_bytes", f.segment_and_partition_bytes},
-                        {"device_bytes", f.device_bytes},
-                        {"ms", ms}});
+        Json entry;
+        for_fields(f, [&](const char* at, const auto& value) { entry[Json::json_pointer(at)] = value; });
+        entry["ms"] = Json::object();
+        for (const auto& [name, value] : f.ms) entry["ms"][name] = value;
+        list.push_back(std::move(entry));
     }
     std::ofstream out(path);
     out << list.dump(1) << "\n";
@@ -52,22 +64,9 @@ std::vector<Figures> load(const std::string& path) {
     std::vector<Figures> all;
     try {
         for (const Json& entry : Json::parse(in)) {
-            Figures f;
-            f.workload = entry.at("workload");
-            f.device = entry.at("device");
-            f.mode = entry.at("mode");
-            f.size = entry.at("size");
-            f.frames = entry.at("frames");
-            f.orbit = entry.at("orbit");
-            f.solids = entry.at("solids");
-            f.regions = entry.at("regions");
-            f.segments = entry.at("segments");
-            f.partitions_used = entry.at("partitions").at("used");
-            f.partitions_allocated = entry.at("partitions").at("allocated");
-            f.segment_and_partition_bytes = entry.at("segment_and_partition_bytes");
-            f.device_bytes = entry.at("device_bytes");
+            Figures& f = all.emplace_back();
+            for_fields(f, [&](const char* at, auto& value) { entry.at(Json::json_pointer(at)).get_to(value); });
             for (const auto& [name, value] : entry.at("ms").items()) f.ms.emplace_back(name, value);
-            all.push_back(std::move(f));
         }
     } catch (const Json::exception& error) {
         throw Error(Status::file, path + ": is no file of this benchmark: " + error.what());

@@ -27,14 +27,10 @@
 #include "list.hpp"
 #include "ray_domain.hpp"
 #include "ray_forms.hpp"
-#include "region_trees.hpp"
-#include "scene_rays.hpp"
-#include "stretches.hpp"
 
 namespace csgrt::bench {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 /// More pieces than this, and the ray is given up.
 constexpr std::uint64_t most_pieces = std::uint64_t{1} << 18;
 
@@ -42,17 +38,15 @@ struct Shared : SharedScene {
     unsigned levels;
 };
 
-class Worker {
+class Worker : RegionWorker<Shared> {
 public:
-    explicit Worker(const Shared& shared) : shared_(shared), live_(shared.trees) {}
+    explicit Worker(const Shared& shared) : RegionWorker(shared) {}
 
     void trace(const Ray& ray, Answer& answer) {
         const CompiledScene& scene = shared_.rays.scene();
         const std::uint64_t asked_before = asked_;
         undecided_ = false;
-        shared_.rays.candidates(ray, -infinity, solids_);
-        live_.build(solids_);
-        if (!live_.roots().empty()) {
+        if (begin(ray)) {
             domain_ = search_domain(scene, ray);
             if (solids_.size() > forms_.size()) forms_.resize(solids_.size());
             known_.assign(solids_.size(), {});
@@ -60,12 +54,8 @@ public:
                 forms_[i].set(scene, solids_[i], ray);
                 known_[i].within = in_box(scene.solid_boxes[solids_[i]], ray, domain_);
             }
-            signs_.resize(live_.nodes().size());
-            nearest_ = infinity;
-            claimed_.clear();
-            for (const LiveTrees::Root& root : live_.roots()) answer.answered = answer.answered && search(root);
-            const double piece = std::ldexp(domain_.to - domain_.from, -static_cast<int>(shared_.levels));
-            if (answer.answered) answer.stretches = owners(claimed_, 2 * piece, shared_.first_hits);
+            piece_ = std::ldexp(domain_.to - domain_.from, -static_cast<int>(shared_.levels));
+            answer_by(answer, 2 * piece_, [&](const LiveTrees::Root& root) { return search(root); });
         }
         if (answer.answered && answer.stretches.empty()) {
             ++misses_;
@@ -73,10 +63,10 @@ public:
         }
         pieces_ += asked_ - asked_before;
     }
-    std::map<std::string, std::uint64_t> counts() const {
-        return {{"pieces a ray", pieces_},
-                {"misses, share of rays", misses_},
-                {"certified misses, share of rays", certified_}};
+    Counts counts() const {
+        return {{"pieces a ray", {pieces_}},
+                {"misses, share of rays", {misses_}},
+                {"certified misses, share of rays", {certified_}}};
     }
 
 private:
@@ -95,32 +85,17 @@ private:
         return sign;
     }
 
-    int operand_sign(Operand operand) const {
-        if (operand >= EMPTY_SET) return operand == EMPTY_SET ? 1 : -1;
-        return operand & 1 ? -signs_[operand >> 1] : signs_[operand >> 1];
-    }
-
     int sign_of(const LiveTrees::Root& root, double from, double to) {
         ++asked_;
-        for (std::uint32_t i = root.first; i < root.last; ++i) {
-            const LiveTrees::Node& node = live_.nodes()[i];
-            if (node.gate == Gate::leaf) {
-                signs_[i] = static_cast<signed char>(sign_of(node.solid, from, to));
-                continue;
-            }
-            const int a = operand_sign(node.left), b = operand_sign(node.right);
-            const int sign = node.gate == Gate::union_         ? std::min(a, b)
-                             : node.gate == Gate::intersection ? std::max(a, b)
-                                                               : std::max(std::min(a, b), -std::max(a, b));
-            signs_[i] = static_cast<signed char>(sign);
-        }
-        return operand_sign(root.operand);
+        return live_.function_of<signed char>(root, 1, signs_, [&](std::uint32_t candidate) {
+            return static_cast<signed char>(sign_of(candidate, from, to));
+        });
     }
 
     /// False: too many pieces.
     bool search(const LiveTrees::Root& root) {
         const unsigned last = shared_.levels;
-        const double piece = std::ldexp(domain_.to - domain_.from, -static_cast<int>(last));
+        const double piece = piece_;
         const auto border = [&](std::uint64_t number) { return domain_.from + static_cast<double>(number) * piece; };
         unsigned level = 0;
         std::uint64_t number = 0, pieces = 0;
@@ -162,7 +137,7 @@ private:
                 before = sign;
                 is_open = false;
                 if (shared_.first_hits && !inside && seen) {
-                    nearest_ = std::min(nearest_, claimed_.back().in + 2 * piece);
+                    keep_nearest(claimed_.back().in, 2 * piece);
                     return true;
                 }
                 if (!inside && to > nearest_) return true;
@@ -178,15 +153,11 @@ private:
         return true;
     }
 
-    const Shared& shared_;
-    LiveTrees live_;
-    std::vector<std::uint32_t> solids_;
     std::vector<RayForm> forms_;
     std::vector<Known> known_;
     std::vector<signed char> signs_;
-    std::vector<Stretch> claimed_;
     Domain domain_;
-    double nearest_ = infinity;  ///< first hits: what begins behind it does not matter
+    double piece_ = 0;  ///< of the last level, its length
     bool undecided_ = false;
     std::uint64_t asked_ = 0, pieces_ = 0, misses_ = 0, certified_ = 0;
 };
@@ -216,8 +187,7 @@ Method bisection() {
                         "interval bisection: there is no implicit function of a solid of type " + missing);
         if (!(options.knob >= 1 && options.knob <= 48))
             throw Error(Status::usage, "interval bisection: needs from 1 to 48 bits");
-        return trace_each_ray<Worker>(Shared{SharedScene(subject, options), static_cast<unsigned>(options.knob)},
-                                      options);
+        return trace_each_ray<Worker>(Shared{{subject, options}, static_cast<unsigned>(options.knob)}, options);
     };
     return m;
 }

@@ -19,20 +19,16 @@
 // warp jump apart.
 #include <algorithm>
 #include <bit>
-#include <map>
 
+#include "blists.hpp"
 #include "device_method.hpp"
 #include "list.hpp"
 
 namespace csgrt::bench {
 namespace {
 
-constexpr std::uint32_t in = 0xffffffff, out = 0xfffffffe, complement_bit = 1u << TREE_SHIFT;
+constexpr std::uint32_t complement_bit = 1u << TREE_SHIFT;
 constexpr std::size_t most_leaves = std::size_t{1} << 26;
-
-struct Leaf {
-    std::uint32_t word, on_true, on_false;
-};
 
 /// Writes a tree backwards: successors first. Their numbers count from the end.
 class BlistWriter {
@@ -57,21 +53,59 @@ public:
         }
         const PositiveTree::Node& leaf = tree_.nodes[number];
         if (leaves.size() == most_leaves) throw Error(Status::usage, "Blist: xor makes a list of over 2^26 leaves");
-        leaves.push_back({leaf.left | (leaf.complement ? complement_bit : 0), on_true, on_false});
+        leaves.push_back({leaf.left, leaf.complement, on_true, on_false});
         return static_cast<std::uint32_t>(leaves.size() - 1);
     }
 
-    std::vector<Leaf> leaves;
+    std::vector<BlistLeaf> leaves;
 
 private:
     const PositiveTree& tree_;
 };
 
-/// How many names are wanted at a time: the places that leaves passed may have told to go to next.
-std::size_t labels(const std::vector<Leaf>& leaves) {
+std::unique_ptr<Tracer> prepare(const Subject& subject, const TraceOptions& options) {
+    std::vector<std::uint32_t> firsts, words;
+    std::size_t most_labels = 1, leaf_count = 0;
+    for (const PositiveTree& tree : positive_trees(subject.compiled, Grouping::heavy_left, options.planted)) {
+        const std::vector<BlistLeaf> leaves = blist_of(tree);
+        const auto base = static_cast<std::uint32_t>(leaf_count);
+        most_labels = std::max(most_labels, labels(leaves));
+        leaf_count += leaves.size();
+        if (leaf_count > most_leaves) throw Error(Status::usage, "Blist: the lists have over 2^26 leaves");
+        const auto placed = [&](std::uint32_t next) { return next >= BlistLeaf::out ? next : base + next; };
+        for (const BlistLeaf& leaf : leaves)
+            words.insert(words.end(), {leaf.solid | (leaf.complement ? complement_bit : 0), placed(leaf.on_true),
+                                       placed(leaf.on_false)});
+        firsts.push_back(leaves.empty() ? BlistLeaf::out : base);
+    }
+    DeviceMethod method{.name = "Blist",
+                        .kernel = "evaluate_blist",
+                        .tables = {std::move(firsts), std::move(words)},
+                        .figures = {{"bits a label", static_cast<double>(std::bit_width(most_labels - 1))},
+                                    {"leaves in lists", static_cast<double>(leaf_count)}}};
+    return trace_on_device(subject, options, std::move(method));
+}
+
+}  // namespace
+
+std::vector<BlistLeaf> blist_of(const PositiveTree& tree) {
+    BlistWriter writer(tree);
+    if (!tree.nodes.empty()) writer.write(tree.root(), BlistLeaf::in, BlistLeaf::out);
+    // The writer's order turned round, so that successors stand behind. The root's list begins with its last leaf.
+    std::reverse(writer.leaves.begin(), writer.leaves.end());
+    const auto last = static_cast<std::uint32_t>(writer.leaves.size() - 1);
+    for (BlistLeaf& leaf : writer.leaves)
+        for (std::uint32_t* next : {&leaf.on_true, &leaf.on_false})
+            if (*next < BlistLeaf::out) *next = last - *next;
+    return std::move(writer.leaves);
+}
+
+std::size_t labels(const std::vector<BlistLeaf>& leaves) {
     const std::size_t count = leaves.size();
     std::vector<std::size_t> teller(count + 2, count);  // of each place, in, out: the first leaf that tells it
-    const auto place = [&](std::uint32_t next) { return next == in ? count : next == out ? count + 1 : next; };
+    const auto place = [&](std::uint32_t next) {
+        return next == BlistLeaf::in ? count : next == BlistLeaf::out ? count + 1 : next;
+    };
     for (std::size_t i = count; i-- > 0;) teller[place(leaves[i].on_true)] = teller[place(leaves[i].on_false)] = i;
     std::vector<std::size_t> begun(count + 1), ended(count + 1);
     for (std::size_t p = 1; p < count + 2; ++p) {
@@ -87,37 +121,6 @@ std::size_t labels(const std::vector<Leaf>& leaves) {
     }
     return most;
 }
-
-std::unique_ptr<Tracer> prepare(const Subject& subject, const TraceOptions& options) {
-    std::vector<std::uint32_t> firsts, words;
-    std::size_t most_labels = 1, leaf_count = 0;
-    for (const PositiveTree& tree : positive_trees(subject.compiled, Grouping::heavy_left, options.planted)) {
-        BlistWriter writer(tree);
-        std::uint32_t first = out;
-        if (!tree.nodes.empty()) first = writer.write(tree.root(), in, out);
-        // The writer's order turned round, so that successors stand behind.
-        const auto base = static_cast<std::uint32_t>(words.size() / 3),
-                   count = static_cast<std::uint32_t>(writer.leaves.size());
-        std::reverse(writer.leaves.begin(), writer.leaves.end());
-        const auto turned = [&](std::uint32_t next) { return next >= out ? next : count - 1 - next; };
-        for (Leaf& leaf : writer.leaves) leaf = {leaf.word, turned(leaf.on_true), turned(leaf.on_false)};
-        most_labels = std::max(most_labels, labels(writer.leaves));
-        leaf_count += count;
-        if (leaf_count > most_leaves) throw Error(Status::usage, "Blist: the lists have over 2^26 leaves");
-        const auto placed = [&](std::uint32_t next) { return next >= out ? next : base + next; };
-        for (const Leaf& leaf : writer.leaves)
-            words.insert(words.end(), {leaf.word, placed(leaf.on_true), placed(leaf.on_false)});
-        firsts.push_back(placed(turned(first)));
-    }
-    DeviceMethod method{.name = "Blist",
-                        .kernel = "evaluate_blist",
-                        .tables = {std::move(firsts), std::move(words)},
-                        .figures = {{"bits a label", static_cast<double>(std::bit_width(most_labels - 1))},
-                                    {"leaves in lists", static_cast<double>(leaf_count)}}};
-    return trace_on_device(subject, options, std::move(method));
-}
-
-}  // namespace
 
 Method blist() {
     return {.name = "Blist",

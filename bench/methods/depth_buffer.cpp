@@ -27,8 +27,6 @@
 #include "each_ray.hpp"
 #include "list.hpp"
 #include "ray_domain.hpp"
-#include "scene_rays.hpp"
-#include "stretches.hpp"
 
 namespace csgrt::bench {
 
@@ -110,7 +108,6 @@ private:
     std::size_t most_, written_ = 0;
 };
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t most_literals = 200'000;
 constexpr std::uint64_t most_layers = 20'000;
 
@@ -118,55 +115,36 @@ struct Shared : SharedScene {
     unsigned bits;
 };
 
-class Worker {
+class Worker : RegionWorker<Shared> {
 public:
-    explicit Worker(const Shared& shared) : shared_(shared), live_(shared.trees) {}
+    explicit Worker(const Shared& shared) : RegionWorker(shared) {}
 
     void trace(const Ray& ray, Answer& answer) {
-        shared_.rays.candidates(ray, -infinity, solids_);
-        live_.build(solids_);
-        if (live_.roots().empty()) return;
+        if (!begin(ray)) return;
         const Domain domain = search_domain(shared_.rays.scene(), ray);
         const DepthScale scale(domain.from, domain.to, shared_.bits);
-        keep(ray, scale);
-        values_.resize(live_.nodes().size());
-        claimed_.clear();
+        intersect(ray, depths_, [&](double t) { return scale.kept(t); });
         // A camera within the model would have what lies behind it clipped, and the caps are no surfaces.
         const bool starts_within = shared_.first_hits && std::any_of(depths_.begin(), depths_.end(),
                                                                      [&](auto depth) { return scale.kept(0) > depth; });
         answer.answered = !starts_within;
         starts_within_ += starts_within;
         layers_of_ray_ = 0;
-        for (const LiveTrees::Root& root : live_.roots()) {
-            if (!answer.answered) return;
-            answer.answered = shared_.first_hits ? nearest(root, scale) : peel(root, scale);
-        }
-        if (answer.answered) answer.stretches = owners(claimed_, 0, shared_.first_hits);
+        answer_by(answer, 0, [&](const LiveTrees::Root& root) {
+            return shared_.first_hits ? nearest(root, scale) : peel(root, scale);
+        });
     }
-    std::map<std::string, std::uint64_t> counts() const {
-        return {{"products a ray", products_},
-                {"layers a ray", layers_},
-                {"start within the scene, share of rays", starts_within_},
-                {"normal form too long, share of rays", too_long_}};
+    Counts counts() const {
+        return {{"products a ray", {products_}},
+                {"layers a ray", {layers_}},
+                {"start within the scene, share of rays", {starts_within_}},
+                {"normal form too long, share of rays", {too_long_}}};
     }
 
 private:
-    /// The depths of every candidate's surfaces, ascending.
-    void keep(const Ray& ray, const DepthScale& scale) {
-        depths_.clear();
-        begin_.assign(1, 0);
-        for (const std::uint32_t solid : solids_) {
-            boundaries_.clear();
-            shared_.rays.append_boundaries(solid, ray, -infinity, boundaries_);
-            for (const kernel::Boundary& end : boundaries_) depths_.push_back(scale.kept(end.t));
-            begin_.push_back(depths_.size());
-        }
-    }
-
-    std::size_t surfaces_up_to(std::uint32_t solid, std::uint64_t depth) const {
-        const auto first = depths_.begin() + static_cast<std::ptrdiff_t>(begin_[solid]);
-        const auto last = depths_.begin() + static_cast<std::ptrdiff_t>(begin_[solid + 1]);
-        return static_cast<std::size_t>(std::upper_bound(first, last, depth) - first);
+    std::size_t surfaces_up_to(std::uint32_t candidate, std::uint64_t depth) const {
+        const std::span<const std::uint64_t> own = surfaces_of(candidate, depths_);
+        return static_cast<std::size_t>(std::upper_bound(own.begin(), own.end(), depth) - own.begin());
     }
 
     bool is_seen(const Product& product, std::uint32_t own, std::uint64_t depth) const {
@@ -188,10 +166,11 @@ private:
         for (const Product& product : sum_)
             for (const std::uint32_t literal : product) {
                 // Front faces stand at even places, back faces at odd ones.
-                for (std::size_t i = begin_[literal >> 1] + (literal & 1); i < begin_[(literal >> 1) + 1]; i += 2) {
-                    if (found && depths_[i] >= depth) break;
-                    if (!is_seen(product, literal, depths_[i])) continue;
-                    depth = depths_[i];
+                const std::span<const std::uint64_t> own = surfaces_of(literal >> 1, depths_);
+                for (std::size_t i = literal & 1; i < own.size(); i += 2) {
+                    if (found && own[i] >= depth) break;
+                    if (!is_seen(product, literal, own[i])) continue;
+                    depth = own[i];
                     found = true;
                 }
             }
@@ -202,23 +181,11 @@ private:
         return true;
     }
 
-    bool operand_value(Operand operand) const {
-        if (operand >= EMPTY_SET) return operand == FULL_SET;
-        return (values_[operand >> 1] != 0) != ((operand & 1) != 0);
-    }
-
     /// Blister: behind the layer at `depth`.
     bool is_inside(const LiveTrees::Root& root, std::uint64_t depth) {
-        for (std::uint32_t i = root.first; i < root.last; ++i) {
-            const LiveTrees::Node& node = live_.nodes()[i];
-            if (node.gate == Gate::leaf) {
-                values_[i] = surfaces_up_to(node.solid, depth) % 2;
-                continue;
-            }
-            const bool a = operand_value(node.left), b = operand_value(node.right);
-            values_[i] = node.gate == Gate::union_ ? a || b : node.gate == Gate::intersection ? a && b : a != b;
-        }
-        return operand_value(root.operand);
+        return live_.function_of<signed char>(root, 1, values_, [&](std::uint32_t candidate) {
+            return static_cast<signed char>(surfaces_up_to(candidate, depth) % 2 ? -1 : 1);
+        }) < 0;
     }
 
     /// All layers of the region. False: too many.
@@ -228,8 +195,8 @@ private:
         for (std::uint32_t i = root.first; i < root.last; ++i) {
             const LiveTrees::Node& node = live_.nodes()[i];
             if (node.gate != Gate::leaf) continue;
-            peeled_.insert(peeled_.end(), depths_.begin() + static_cast<std::ptrdiff_t>(begin_[node.solid]),
-                           depths_.begin() + static_cast<std::ptrdiff_t>(begin_[node.solid + 1]));
+            const std::span<const std::uint64_t> own = surfaces_of(node.solid, depths_);
+            peeled_.insert(peeled_.end(), own.begin(), own.end());
         }
         std::sort(peeled_.begin(), peeled_.end());
         peeled_.erase(std::unique(peeled_.begin(), peeled_.end()), peeled_.end());
@@ -249,15 +216,9 @@ private:
         return true;
     }
 
-    const Shared& shared_;
-    LiveTrees live_;
-    std::vector<std::uint32_t> solids_;
-    std::vector<kernel::Boundary> boundaries_;
     std::vector<std::uint64_t> depths_, peeled_;
-    std::vector<std::size_t> begin_;  ///< of each candidate's depths
-    std::vector<char> values_;        ///< by node
+    std::vector<signed char> values_;  ///< by node
     std::vector<Product> sum_;
-    std::vector<Stretch> claimed_;
     std::uint64_t products_ = 0, layers_ = 0, layers_of_ray_ = 0, starts_within_ = 0, too_long_ = 0;
 };
 
@@ -287,8 +248,7 @@ Method depth_buffer() {
     m.prepare = [](const Subject& subject, const TraceOptions& options) -> std::unique_ptr<Tracer> {
         if (!(options.knob >= 1 && options.knob <= 32))
             throw Error(Status::usage, "depth buffer: needs from 1 to 32 bits");
-        return trace_each_ray<Worker>(Shared{SharedScene(subject, options), static_cast<unsigned>(options.knob)},
-                                      options);
+        return trace_each_ray<Worker>(Shared{{subject, options}, static_cast<unsigned>(options.knob)}, options);
     };
     return m;
 }

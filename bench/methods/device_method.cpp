@@ -35,22 +35,22 @@ std::string compiling_device(const std::string& method, const std::string& choic
     return std::to_string(chosen);
 }
 
-/// One text for all methods: where a driver keeps what it has compiled, the kernels in front are compiled once.
+/// One text for all methods: where a driver keeps what it has compiled, the kernels in front are compiled once. A file
+/// with a function NAME_holds gets its kernel, evaluate_NAME, from each_partition.h.
 std::string source() {
-    std::string text;
-    const auto add = [&](const std::string& name) {
-        for (const KernelFile& file : method_kernel_files())
-            if (name == file.name) text += "#line 1 \"bench/methods/kernels/" + name + "\"\n" + file.text;
-    };
-    add("covered.h");
-    for (const std::string name : {"bit_sequential", "bit_parallel", "blist"}) {
-        add(name + ".cl");
-        text += "#define KERNEL evaluate_" + name + "\n#define REGION_HOLDS " + name + "_holds\n";
-        add("each_partition.h");
-        text += "#undef KERNEL\n#undef REGION_HOLDS\n";
+    std::map<std::string, std::string> texts;
+    for (const KernelFile& file : method_kernel_files())
+        texts[file.name] = "#line 1 \"bench/methods/kernels/" + std::string(file.name) + "\"\n" + file.text;
+    std::string all = texts.at("covered.h");
+    for (const auto& [file, text] : texts) {
+        if (!file.ends_with(".cl")) continue;
+        all += text;
+        const std::string name = file.substr(0, file.size() - 3);
+        if (text.find(name + "_holds(") != std::string::npos)
+            all += "#define KERNEL evaluate_" + name + "\n#define REGION_HOLDS " + name + "_holds\n" +
+                   texts.at("each_partition.h") + "#undef KERNEL\n#undef REGION_HOLDS\n";
     }
-    add("status_tree.cl");
-    return text;
+    return all;
 }
 
 /// All tables in one buffer, behind the places where they begin.

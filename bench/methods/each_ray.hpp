@@ -1,9 +1,12 @@
-// The loop over rays of the methods that run on the processors: rays in pieces of 64, a worker for each thread.
+// What the methods that run on the processors share: the loop over rays, a worker for each thread; and what a worker of
+// those that search or sort along the ray knows of it.
 #pragma once
 
+#include <limits>
 #include <map>
 #include <memory>
 #include <mutex>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,27 +16,21 @@
 #include "method.hpp"
 #include "region_trees.hpp"
 #include "scene_rays.hpp"
+#include "stretches.hpp"
 
 namespace csgrt::bench {
 
-/// What these methods share among threads; each adds its own.
-struct SharedScene {
-    SharedScene(const Subject& subject, const TraceOptions& options)
-        : rays(subject.compiled), trees(subject.compiled, options.planted), first_hits(options.first_hits) {}
+inline constexpr std::size_t rays_of_a_tile = 64;
 
-    SceneRays rays;
-    RegionTrees trees;
-    bool first_hits;
+/// What a worker counts: a figure is their quotient, or where `of` is 0 the mean of all rays.
+struct Count {
+    std::uint64_t count = 0, of = 0;
 };
+using Counts = std::map<std::string, Count>;
 
-/// A knob in diameters of the scene's sphere, in millimetres; in a scene without one it is millimetres itself.
-inline double knob_length(const Subject& subject, const TraceOptions& options) {
-    const double radius = subject.compiled.radius;
-    return options.knob * (radius > 0 ? 2 * radius : 1);
-}
-
-/// Worker: made from `const Shared&`; void trace(const Ray&, Answer&) has its own memory; counts() are summed over the
-/// workers of a trace and given as means of all rays.
+/// Worker: made from `const Shared&`, with memory of its own. Either void trace(const Ray&, Answer&), or void
+/// trace_tile(std::span<const Ray>, Answer*) for as many as rays_of_a_tile neighbours. `Counts counts() const` is
+/// summed over the workers of a trace.
 template <class Shared, class Worker>
 class EachRay final : public Tracer {
 public:
@@ -44,7 +41,7 @@ public:
         std::vector<std::unique_ptr<Worker>> idle;
         std::mutex mutex;
         const Clock::time_point start = Clock::now();
-        for_chunks(rays.size(), 64, threads_, [&](std::size_t first, std::size_t last, std::size_t) {
+        for_chunks(rays.size(), rays_of_a_tile, threads_, [&](std::size_t first, std::size_t last, std::size_t) {
             std::unique_ptr<Worker> worker;
             {
                 const std::lock_guard lock(mutex);
@@ -54,15 +51,23 @@ public:
                 }
             }
             if (!worker) worker = std::make_unique<Worker>(*shared_);
-            for (std::size_t i = first; i < last; ++i) worker->trace(rays[i], answers[i]);
+            if constexpr (requires { &Worker::trace_tile; })
+                worker->trace_tile(std::span(rays).subspan(first, last - first), answers.data() + first);
+            else
+                for (std::size_t i = first; i < last; ++i) worker->trace(rays[i], answers[i]);
             const std::lock_guard lock(mutex);
             idle.push_back(std::move(worker));
         });
         seconds_ = seconds_since(start);
-        figures_.clear();
+        Counts sums;
         for (const auto& worker : idle)
-            for (const auto& [name, count] : worker->counts())
-                figures_[name] += static_cast<double>(count) / static_cast<double>(rays.size());
+            for (const auto& [name, count] : worker->counts()) {
+                sums[name].count += count.count;
+                sums[name].of += count.of;
+            }
+        figures_.clear();
+        for (const auto& [name, sum] : sums)
+            figures_[name] = static_cast<double>(sum.count) / static_cast<double>(sum.of ? sum.of : rays.size());
         return answers;
     }
     double seconds() const override { return seconds_; }
@@ -80,5 +85,75 @@ std::unique_ptr<Tracer> trace_each_ray(Shared shared, const TraceOptions& option
     return std::make_unique<EachRay<Shared, Worker>>(std::make_unique<const Shared>(std::move(shared)),
                                                      options.threads);
 }
+
+/// What the threads of these methods share; each method adds its own.
+struct SharedScene {
+    SharedScene(const Subject& subject, const TraceOptions& options)
+        : rays(subject.compiled), trees(subject.compiled, options.planted), first_hits(options.first_hits) {}
+
+    SceneRays rays;
+    RegionTrees trees;
+    bool first_hits;
+};
+
+/// A knob in diameters of the scene's sphere, in millimetres; in a scene without one it is millimetres itself.
+inline double knob_length(const Subject& subject, const TraceOptions& options) {
+    const double radius = subject.compiled.radius;
+    return options.knob * (radius > 0 ? 2 * radius : 1);
+}
+
+/// A ray among the regions: its candidates, the trees that are alive for them, and what the regions claim of it.
+template <class Shared>
+class RegionWorker {
+protected:
+    static constexpr double infinity = std::numeric_limits<double>::infinity();
+
+    explicit RegionWorker(const Shared& shared) : shared_(shared), live_(shared.trees) {}
+
+    /// False: no region is alive, and the ray meets nothing.
+    bool begin(const Ray& ray) {
+        shared_.rays.candidates(ray, -infinity, solids_);
+        live_.build(solids_);
+        nearest_ = infinity;
+        claimed_.clear();
+        return !live_.roots().empty();
+    }
+    /// walk(root) claims what the region has of the ray; false gives the ray up.
+    template <class Walk>
+    void answer_by(Answer& answer, double epsilon, const Walk& walk) {
+        for (const LiveTrees::Root& root : live_.roots()) answer.answered = answer.answered && walk(root);
+        if (answer.answered) answer.stretches = owners(claimed_, epsilon, shared_.first_hits);
+    }
+    /// Of first hits: a stretch that ends behind the ray's start, so what begins behind `in` + `slack` does not matter.
+    void keep_nearest(double in, double slack) { nearest_ = std::min(nearest_, in + slack); }
+
+    /// Where the ray meets each candidate's surfaces, by kept(distance): in, out, in, ...; ascending.
+    template <class T, class Kept>
+    void intersect(const Ray& ray, std::vector<T>& surfaces, const Kept& kept) {
+        surfaces.clear();
+        begin_.assign(1, 0);
+        for (const std::uint32_t solid : solids_) {
+            ends_.clear();
+            shared_.rays.append_ends(solid, ray, -infinity, ends_);
+            for (const kernel::End& end : ends_) surfaces.push_back(kept(end.t));
+            begin_.push_back(surfaces.size());
+        }
+    }
+    /// Those of one candidate.
+    template <class T>
+    std::span<const T> surfaces_of(std::uint32_t candidate, const std::vector<T>& surfaces) const {
+        return std::span(surfaces).subspan(begin_[candidate], begin_[candidate + 1] - begin_[candidate]);
+    }
+
+    const Shared& shared_;
+    LiveTrees live_;
+    std::vector<std::uint32_t> solids_;  ///< the candidates
+    std::vector<Stretch> claimed_;
+    double nearest_ = infinity;  ///< first hits: what begins behind it does not matter
+
+private:
+    std::vector<kernel::End> ends_;
+    std::vector<std::size_t> begin_;  ///< of each candidate's surfaces
+};
 
 }  // namespace csgrt::bench

@@ -36,8 +36,6 @@
 
 #include "each_ray.hpp"
 #include "list.hpp"
-#include "scene_rays.hpp"
-#include "stretches.hpp"
 
 namespace csgrt::bench {
 namespace kensler_table {
@@ -91,28 +89,24 @@ struct Shared : SharedScene {
     double epsilon;  ///< millimetres
 };
 
-class Worker {
+class Worker : RegionWorker<Shared> {
 public:
-    explicit Worker(const Shared& shared) : shared_(shared), live_(shared.trees) {}
+    explicit Worker(const Shared& shared) : RegionWorker(shared) {}
 
     void trace(const Ray& ray, Answer& answer) {
-        shared_.rays.candidates(ray, -infinity, solids_);
-        if (solids_.empty()) return;
-        live_.build(solids_);
-        if (live_.roots().empty()) return;
-        intersect(ray);
+        if (!begin(ray)) return;
+        intersect(ray, surfaces_, [](double t) { return t; });
         known_.assign(live_.nodes().size(), {});
         epsilon_ = shared_.epsilon / std::hypot(ray.direction.x, ray.direction.y, ray.direction.z);
         steps_ = 0;
         gives_up_ = false;
-        nearest_ = infinity;
-        claimed_.clear();
-        for (const LiveTrees::Root& root : live_.roots()) walk(root);
+        answer_by(answer, epsilon_, [&](const LiveTrees::Root& root) {
+            walk(root);
+            return !gives_up_;
+        });
         all_steps_ += steps_;
-        answer.answered = !gives_up_;
-        if (answer.answered) answer.stretches = owners(claimed_, epsilon_, shared_.first_hits);
     }
-    std::map<std::string, std::uint64_t> counts() const { return {{"nodes asked a ray", all_steps_}}; }
+    Counts counts() const { return {{"nodes asked a ray", {all_steps_}}}; }
 
 private:
     /// What a node was last asked, and what it met: the same for every t_min up to there.
@@ -120,18 +114,6 @@ private:
         double from = infinity;
         Surface surface;
     };
-
-    /// Every solid once: where its surfaces are, in then out in turn.
-    void intersect(const Ray& ray) {
-        surfaces_.clear();
-        begin_.assign(1, 0);
-        for (const std::uint32_t solid : solids_) {
-            boundaries_.clear();
-            shared_.rays.append_boundaries(solid, ray, -infinity, boundaries_);
-            for (const kernel::Boundary& end : boundaries_) surfaces_.push_back(end.t);
-            begin_.push_back(surfaces_.size());
-        }
-    }
 
     double behind(double t) const { return std::max(t + epsilon_, std::nextafter(t, infinity)); }
 
@@ -152,10 +134,9 @@ private:
         }
         Surface s;
         if (node.gate == Gate::leaf) {
-            const auto first = surfaces_.begin() + static_cast<std::ptrdiff_t>(begin_[node.solid]);
-            const auto last = surfaces_.begin() + static_cast<std::ptrdiff_t>(begin_[node.solid + 1]);
-            const auto at = std::upper_bound(first, last, t_min);
-            if (at != last) s = {(at - first) % 2 ? Next::exit : Next::enter, *at};
+            const std::span<const double> own = surfaces_of(node.solid, surfaces_);
+            const auto at = std::upper_bound(own.begin(), own.end(), t_min);
+            if (at != own.end()) s = {(at - own.begin()) % 2 ? Next::exit : Next::enter, *at};
         } else {
             s = combine(node, t_min, level + 1);
         }
@@ -201,7 +182,7 @@ private:
             if (inside && !enters) {
                 claimed_.push_back({root.region, in, s.t});
                 if (shared_.first_hits && s.t > 0) {
-                    nearest_ = std::min(nearest_, in + 2 * epsilon_);
+                    keep_nearest(in, 2 * epsilon_);
                     return;
                 }
             }
@@ -211,16 +192,9 @@ private:
         }
     }
 
-    const Shared& shared_;
-    LiveTrees live_;
-    std::vector<std::uint32_t> solids_;
-    std::vector<kernel::Boundary> boundaries_;
     std::vector<double> surfaces_;
-    std::vector<std::size_t> begin_;  ///< of each candidate's surfaces
     std::vector<Known> known_;
-    std::vector<Stretch> claimed_;
     double epsilon_ = 0;
-    double nearest_ = infinity;  ///< first hits: what begins behind it does not matter
     std::uint64_t steps_ = 0, all_steps_ = 0;
     bool gives_up_ = false;
 };
@@ -243,7 +217,7 @@ Method kensler() {
     m.knob_values = {1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9};
     m.exact = false;
     m.prepare = [](const Subject& subject, const TraceOptions& options) -> std::unique_ptr<Tracer> {
-        return trace_each_ray<Worker>(Shared{SharedScene(subject, options), knob_length(subject, options)}, options);
+        return trace_each_ray<Worker>(Shared{{subject, options}, knob_length(subject, options)}, options);
     };
     return m;
 }

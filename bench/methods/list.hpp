@@ -1,20 +1,25 @@
-// The methods, each in its own file.
+// The methods, in the chart's order: a file each, and a line here.
 #pragma once
 
 #include "method.hpp"
 
+#define CSGRT_METHODS(METHOD) \
+    METHOD(roth)              \
+    METHOD(bit_sequential)    \
+    METHOD(bit_parallel)      \
+    METHOD(status_tree)       \
+    METHOD(blist)             \
+    METHOD(pruning)           \
+    METHOD(kensler)           \
+    METHOD(bisection)         \
+    METHOD(sphere_tracing)    \
+    METHOD(depth_buffer)      \
+    METHOD(meshes)
+
 namespace csgrt::bench {
 
-Method roth();
-Method bit_sequential();
-Method bit_parallel();
-Method status_tree();
-Method blist();
-Method pruning();
-Method kensler();
-Method bisection();
-Method sphere_tracing();
-Method depth_buffer();
-Method meshes();
+#define CSGRT_METHOD(name) Method name();
+CSGRT_METHODS(CSGRT_METHOD)
+#undef CSGRT_METHOD
 
 }  // namespace csgrt::bench

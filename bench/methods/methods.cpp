@@ -3,10 +3,8 @@
 namespace csgrt::bench {
 
 const std::vector<Method>& methods() {
-    static const std::vector<Method> all = {
-        roth(),    bit_sequential(), bit_parallel(),   status_tree(),  blist(),  pruning(),
-        kensler(), bisection(),      sphere_tracing(), depth_buffer(), meshes(),
-    };
+#define CSGRT_METHOD(name) name(),
+    static const std::vector<Method> all = {CSGRT_METHODS(CSGRT_METHOD)};
     return all;
 }
 

@@ -17,18 +17,15 @@
 // For its speed: trees are flattened by associativity; gates end early (an or that has a true operand); the partitions
 // come from a sweep over the ray's events with a list of the covering segments.
 // Fails (costs more than it saves) where trees are small, or where each ray of a tile meets other solids.
-#include <limits>
-#include <mutex>
 #include <numeric>
 
 #include "device_method.hpp"
-#include "ray_events.hpp"
+#include "each_ray.hpp"
 #include "list.hpp"
+#include "ray_events.hpp"
 
 namespace csgrt::bench {
 namespace {
-
-constexpr std::size_t tile = 64;
 
 /// A region's tree, as a whole or pruned.
 struct Tree {
@@ -53,9 +50,7 @@ struct Tree {
             }
             const Node &l = nodes[node.left], &r = nodes[node.right];
             node.leaves = l.leaves + r.leaves;
-            node.empty = node.complement != (node.gate == Gate::intersection ? l.empty && r.empty
-                                             : node.gate == Gate::union_     ? l.empty || r.empty
-                                                                             : l.empty != r.empty);
+            node.empty = node.complement != value_of(node.gate, l.empty, r.empty);
         }
         if (nodes.empty()) return;
         nodes.back().first = 0;
@@ -212,148 +207,119 @@ private:
     std::vector<Frame> frames_;
 };
 
-class Pruning final : public Tracer {
+struct Shared : EventScene {
+    bool by_partition, by_tile;
+    std::vector<Tree> trees = {};  ///< one a region
+};
+
+class Worker {
 public:
-    Pruning(const Subject& subject, const TraceOptions& options)
-        : rays_(subject.compiled),
-          options_(options),
-          by_partition_(options.knob == 1 || options.knob == 3),
-          by_tile_(options.knob == 2 || options.knob == 3),
-          regions_of_(regions_of_solids(subject.compiled)) {
-        if (!by_partition_ && !by_tile_ && options.knob != 0)
-            throw Error(Status::usage, "pruning: its knob is 0 (off), 1 (per partition), 2 (per tile) or 3 (both)");
-        for (const PositiveTree& tree : positive_trees(subject.compiled, Grouping::least_height, options.planted))
-            trees_.push_back(whole(tree));
+    explicit Worker(const Shared& shared) : shared_(shared) {}
+    Counts counts() const {
+        return {{"nodes a partition", {walker_.visited, partitions_}},
+                {"nodes read to prune, a partition", {pruned_, partitions_}}};
     }
 
-    std::vector<Answer> trace(const std::vector<Ray>& rays) override {
-        std::vector<Answer> answers(rays.size());
-        visited_ = pruned_ = partitions_ = 0;
-        seconds_ = trace_in_pieces(options_, tile, answers, [&](std::size_t first, std::size_t last) {
-            Memory memory;
-            trace(std::span(rays).subspan(first, last - first), answers.data() + first, memory);
-            const std::lock_guard lock(mutex_);
-            visited_ += memory.walker.visited;
-            pruned_ += memory.pruned;
-            partitions_ += memory.partitions;
-        });
-        return answers;
-    }
-    double seconds() const override { return seconds_; }
-    std::map<std::string, double> figures() const override {
-        const double partitions = static_cast<double>(std::max<std::uint64_t>(partitions_, 1));
-        return {{"nodes a partition", static_cast<double>(visited_) / partitions},
-                {"nodes read to prune, a partition", static_cast<double>(pruned_) / partitions}};
+    void trace_tile(std::span<const Ray> rays, Answer* answers) {
+        events_.resize(rays.size());
+        pruned_trees_.clear();
+        present_.clear();
+        for (std::size_t i = 0; i < rays.size(); ++i) events_[i].find(shared_.rays, rays[i]);
+        if (shared_.by_tile) {
+            for (const RayEvents& events : events_)
+                for (const RayEvents::Segment& segment : events.segments) present_.push_back(segment.solid);
+            sort_once(present_);
+        }
+        for (std::size_t i = 0; i < rays.size(); ++i) answers[i].stretches = sweep(events_[i]);
     }
 
 private:
-    struct Memory {
-        std::vector<RayEvents> events;
-        std::vector<std::uint32_t> present, regions, solids, claimed, order;
-        std::vector<RayEvents::Segment> covering;
-        std::map<std::uint32_t, Tree> trees;  ///< of the tile
-        Walker walker;
-        std::uint64_t pruned = 0, partitions = 0;
-    };
-
-    void trace(std::span<const Ray> rays, Answer* answers, Memory& memory) const {
-        memory.events.resize(rays.size());
-        for (std::size_t i = 0; i < rays.size(); ++i) memory.events[i].find(rays_, rays[i]);
-        if (by_tile_) {
-            for (const RayEvents& events : memory.events)
-                for (const RayEvents::Segment& segment : events.segments) memory.present.push_back(segment.solid);
-            std::sort(memory.present.begin(), memory.present.end());
-            memory.present.erase(std::unique(memory.present.begin(), memory.present.end()), memory.present.end());
-        }
-        for (std::size_t i = 0; i < rays.size(); ++i) answers[i].stretches = sweep(memory.events[i], memory);
-    }
-
-    Sequence sweep(const RayEvents& events, Memory& memory) const {
-        std::vector<std::uint32_t>&claimed = memory.claimed, &order = memory.order;
-        std::vector<RayEvents::Segment>& covering = memory.covering;
-        claimed.assign(events.steps(), NONE);
-        order.resize(events.segments.size());
-        std::iota(order.begin(), order.end(), 0u);
-        std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+    Sequence sweep(const RayEvents& events) {
+        claimed_.assign(events.steps(), NONE);
+        order_.resize(events.segments.size());
+        std::iota(order_.begin(), order_.end(), 0u);
+        std::sort(order_.begin(), order_.end(), [&](std::uint32_t a, std::uint32_t b) {
             return std::pair(events.segments[a].in, a) < std::pair(events.segments[b].in, b);
         });
-        covering.clear();
+        covering_.clear();
         std::size_t next = 0;
         for (std::uint32_t step = 0; step < events.steps(); ++step) {
-            bool changed = std::erase_if(covering, [&](const RayEvents::Segment& s) { return s.out <= step; }) > 0;
-            for (; next < order.size() && events.segments[order[next]].in == step; ++next) {
-                covering.push_back(events.segments[order[next]]);
+            bool changed = std::erase_if(covering_, [&](const RayEvents::Segment& s) { return s.out <= step; }) > 0;
+            for (; next < order_.size() && events.segments[order_[next]].in == step; ++next) {
+                covering_.push_back(events.segments[order_[next]]);
                 changed = true;
             }
             if (!changed) {  // only segments shorter than the tolerance ended here
-                if (step > 0) claimed[step] = claimed[step - 1];
+                if (step > 0) claimed_[step] = claimed_[step - 1];
                 continue;
             }
-            if (covering.empty()) continue;
-            ++memory.partitions;
-            const auto any = [&](const auto& is) { return std::any_of(covering.begin(), covering.end(), is); };
+            if (covering_.empty()) continue;
+            ++partitions_;
+            const auto any = [&](const auto& is) { return std::any_of(covering_.begin(), covering_.end(), is); };
             const bool moved = any([](const auto& s) { return s.missed; }) &&
-                               any([&](const auto& s) { return s.solid != covering[0].solid; });
-            claimed[step] = NONE;
+                               any([&](const auto& s) { return s.solid != covering_[0].solid; });
             for (std::uint32_t side = moved; side < (moved ? SIDES : 1u); ++side)
-                claimed[step] = std::min(claimed[step], claim(kernel::missed_on(side), memory));
+                claimed_[step] = std::min(claimed_[step], claim(kernel::missed_on(side)));
         }
-        return stretches_of(events, claimed);
+        return stretches_of(events, claimed_, shared_.first_hits);
     }
 
     /// The least region that claims what the covering segments cover, but those that have any of `missed`.
-    std::uint32_t claim(std::uint32_t missed, Memory& memory) const {
-        std::vector<std::uint32_t>&solids = memory.solids, &regions = memory.regions;
-        solids.clear();
-        regions.clear();
-        for (const RayEvents::Segment& segment : memory.covering)
-            if (!(segment.missed & missed)) solids.push_back(segment.solid);
-        std::sort(solids.begin(), solids.end());
-        solids.erase(std::unique(solids.begin(), solids.end()), solids.end());
-        for (const std::uint32_t solid : solids)
-            regions.insert(regions.end(), regions_of_[solid].begin(), regions_of_[solid].end());
-        std::sort(regions.begin(), regions.end());
-        regions.erase(std::unique(regions.begin(), regions.end()), regions.end());
-        for (const std::uint32_t region : regions)
-            if (memory.walker.holds(tree_of(region, memory), solids, by_partition_)) return region;
+    std::uint32_t claim(std::uint32_t missed) {
+        solids_.clear();
+        regions_.clear();
+        for (const RayEvents::Segment& segment : covering_)
+            if (!(segment.missed & missed)) solids_.push_back(segment.solid);
+        sort_once(solids_);
+        for (const std::uint32_t solid : solids_) shared_.add_regions_of(solid, regions_);
+        sort_once(regions_);
+        for (const std::uint32_t region : regions_)
+            if (walker_.holds(tree_of(region), solids_, shared_.by_partition)) return region;
         return NONE;
     }
 
-    const Tree& tree_of(std::uint32_t region, Memory& memory) const {
-        if (!by_tile_) return trees_[region];
-        const auto found = memory.trees.find(region);
-        if (found != memory.trees.end()) return found->second;
-        memory.pruned += trees_[region].nodes.size();
-        return memory.trees.emplace(region, pruned(trees_[region], memory.present)).first->second;
+    const Tree& tree_of(std::uint32_t region) {
+        const Tree& tree = shared_.trees[region];
+        if (!shared_.by_tile) return tree;
+        const auto found = pruned_trees_.find(region);
+        if (found != pruned_trees_.end()) return found->second;
+        pruned_ += tree.nodes.size();
+        return pruned_trees_.emplace(region, pruned(tree, present_)).first->second;
     }
 
-    SceneRays rays_;
-    TraceOptions options_;
-    bool by_partition_, by_tile_;
-    std::vector<std::vector<std::uint32_t>> regions_of_;
-    std::vector<Tree> trees_;  ///< one a region
-    double seconds_ = 0;
-    std::uint64_t visited_ = 0, pruned_ = 0, partitions_ = 0;
-    std::mutex mutex_;
+    const Shared& shared_;
+    std::vector<RayEvents> events_;
+    std::vector<std::uint32_t> present_, regions_, solids_, claimed_, order_;
+    std::vector<RayEvents::Segment> covering_;
+    std::map<std::uint32_t, Tree> pruned_trees_;  ///< of the tile
+    Walker walker_;
+    std::uint64_t pruned_ = 0, partitions_ = 0;
 };
 
 }  // namespace
 
 Method pruning() {
-    return {.name = "pruning",
-            .source = "Tilove 1984, Jansen 1991",
-            .about =
-                "Solids that are out, because no ray of a tile meets them or because they do not cover the "
-                "partition, are cut from the trees by table 2.1 before these are walked. Trees are flattened "
-                "first, and gates end early.",
-            .breaks =
-                "depth and overlaps: trees are of one or few leaves there, so pruning saves nothing and costs "
-                "its passes. No family makes it wrong.",
-            .knob = "0 off, 1 per partition, 2 per tile of 64 rays, 3 both",
-            .knob_values = {0, 1, 2, 3},
-            .prepare = [](const Subject& subject, const TraceOptions& options) {
-                return std::make_unique<Pruning>(subject, options);
-            }};
+    return {
+        .name = "pruning",
+        .source = "Tilove 1984, Jansen 1991",
+        .about =
+            "Solids that are out, because no ray of a tile meets them or because they do not cover the "
+            "partition, are cut from the trees by table 2.1 before these are walked. Trees are flattened "
+            "first, and gates end early.",
+        .breaks =
+            "depth and overlaps: trees are of one or few leaves there, so pruning saves nothing and costs "
+            "its passes. No family makes it wrong.",
+        .knob = "0 off, 1 per partition, 2 per tile of 64 rays, 3 both",
+        .knob_values = {0, 1, 2, 3},
+        .prepare = [](const Subject& subject, const TraceOptions& options) {
+            const double knob = options.knob;
+            if (knob != 0 && knob != 1 && knob != 2 && knob != 3)
+                throw Error(Status::usage, "pruning: its knob is 0 (off), 1 (per partition), 2 (per tile) or 3 (both)");
+            Shared shared{{subject, options}, knob == 1 || knob == 3, knob >= 2};
+            for (const PositiveTree& tree : positive_trees(subject.compiled, Grouping::least_height, options.planted))
+                shared.trees.push_back(whole(tree));
+            return trace_each_ray<Worker>(std::move(shared), options);
+        }};
 }
 
 }  // namespace csgrt::bench

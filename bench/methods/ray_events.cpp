@@ -3,9 +3,6 @@
 #include <limits>
 #include <numeric>
 
-#include "base/clock.hpp"
-#include "base/parallel.hpp"
-
 namespace csgrt::bench {
 
 void RayEvents::find(const SceneRays& rays, const Ray& ray) {
@@ -42,20 +39,14 @@ void append(Sequence& stretches, const Stretch& next) {
         stretches.push_back(next);
 }
 
-Sequence stretches_of(const RayEvents& events, const std::vector<std::uint32_t>& region_of_step) {
+Sequence stretches_of(const RayEvents& events, const std::vector<std::uint32_t>& region_of_step, bool first) {
     Sequence stretches;
     for (std::uint32_t step = 0; step < events.steps(); ++step)
         if (region_of_step[step] != NONE)
             append(stretches, {region_of_step[step], events.at[step], events.at[step + 1]});
-    return stretches;
-}
-
-void keep_first_hit(Sequence& stretches) {
+    if (!first) return stretches;
     const auto hit = std::find_if(stretches.begin(), stretches.end(), [](const Stretch& s) { return s.out > 0; });
-    if (hit == stretches.end())
-        stretches.clear();
-    else
-        stretches = {*hit};
+    return hit == stretches.end() ? Sequence{} : Sequence{*hit};
 }
 
 std::vector<std::vector<std::uint32_t>> regions_of_solids(const CompiledScene& scene) {
@@ -67,17 +58,6 @@ std::vector<std::vector<std::uint32_t>> regions_of_solids(const CompiledScene& s
             if (list.empty() || list.back() != region) list.push_back(region);
         }
     return lists;
-}
-
-double trace_in_pieces(const TraceOptions& options, std::size_t piece, std::vector<Answer>& answers,
-                       const std::function<void(std::size_t first, std::size_t last)>& work) {
-    const Clock::time_point start = Clock::now();
-    for_chunks(answers.size(), piece, options.threads,
-               [&](std::size_t first, std::size_t last, std::size_t) { work(first, last); });
-    const double seconds = seconds_since(start);
-    if (options.first_hits)
-        for (Answer& answer : answers) keep_first_hit(answer.stretches);
-    return seconds;
 }
 
 }  // namespace csgrt::bench

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <vector>
 
 #include "method.hpp"
@@ -36,17 +35,31 @@ private:
 
 /// Appends a stretch, or lengthens the last one if it is of the same region and touches it.
 void append(Sequence& stretches, const Stretch& next);
-/// Of each step the region that claims it, or NONE -> the ray's stretches.
-Sequence stretches_of(const RayEvents& events, const std::vector<std::uint32_t>& region_of_step);
-/// Leaves only the first stretch that does not end at or behind the ray's start.
-void keep_first_hit(Sequence& stretches);
+/// Of each step the region that claims it, or NONE -> the ray's stretches. `first`: only the first one that does not
+/// end at or behind the ray's start.
+Sequence stretches_of(const RayEvents& events, const std::vector<std::uint32_t>& region_of_step, bool first);
 
 /// The regions whose trees have a solid: a list for each solid, ascending.
 std::vector<std::vector<std::uint32_t>> regions_of_solids(const CompiledScene& scene);
 
-/// Calls work(first, last) for pieces of the rays, several at once, on the threads that the options ask for; then
-/// leaves of the answers what the options want. Returns the seconds that the work took.
-double trace_in_pieces(const TraceOptions& options, std::size_t piece, std::vector<Answer>& answers,
-                       const std::function<void(std::size_t first, std::size_t last)>& work);
+/// What the threads share of methods that look at events; each method adds its own.
+struct EventScene {
+    EventScene(const Subject& subject, const TraceOptions& options)
+        : rays(subject.compiled), first_hits(options.first_hits), regions_of(regions_of_solids(subject.compiled)) {}
+
+    void add_regions_of(std::uint32_t solid, std::vector<std::uint32_t>& regions) const {
+        regions.insert(regions.end(), regions_of[solid].begin(), regions_of[solid].end());
+    }
+
+    SceneRays rays;
+    bool first_hits;
+    std::vector<std::vector<std::uint32_t>> regions_of;  ///< of each solid
+};
+
+/// Ascending, each number once.
+inline void sort_once(std::vector<std::uint32_t>& numbers) {
+    std::sort(numbers.begin(), numbers.end());
+    numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+}
 
 }  // namespace csgrt::bench

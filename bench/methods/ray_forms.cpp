@@ -1,5 +1,7 @@
 #include "ray_forms.hpp"
 
+#include <map>
+
 namespace csgrt::bench {
 namespace {
 
@@ -225,42 +227,26 @@ int RayForm::sign(double from, double to) const {
 }
 
 const char* type_name(std::uint32_t type) {
-    switch (type) {
-        case SOLID_ELL:
-            return "ell";
-        case SOLID_TGC:
-            return "tgc";
-        case SOLID_ARB:
-            return "arb8 or arbn";
-        case SOLID_HALF:
-            return "half";
-        case SOLID_TOR:
-            return "tor";
-        case SOLID_EHY:
-            return "ehy";
-        case SOLID_QUADRIC:
-            return "epa, rpc, rhc or hyp";
-        case SOLID_ETO:
-            return "eto";
-        case SOLID_PART:
-            return "part";
-        case SOLID_SUPERELL:
-            return "superell";
-        case SOLID_HRT:
-            return "hrt";
-        case SOLID_METABALL:
-            return "metaball";
-        case SOLID_MESH:
-            return "bot, ars, nmg, dsp or vol";
-        case SOLID_PLATE:
-            return "bot of plates";
-        case SOLID_EXTRUDE:
-            return "extrude or ebm";
-        case SOLID_REVOLVE:
-            return "revolve";
-        default:
-            return "eto across its axis";
-    }
+    static const std::map<std::uint32_t, const char*> names = {
+        {SOLID_ELL, "ell"},
+        {SOLID_TGC, "tgc"},
+        {SOLID_ARB, "arb8 or arbn"},
+        {SOLID_HALF, "half"},
+        {SOLID_TOR, "tor"},
+        {SOLID_EHY, "ehy"},
+        {SOLID_QUADRIC, "epa, rpc, rhc or hyp"},
+        {SOLID_ETO, "eto"},
+        {SOLID_PART, "part"},
+        {SOLID_SUPERELL, "superell"},
+        {SOLID_HRT, "hrt"},
+        {SOLID_METABALL, "metaball"},
+        {SOLID_MESH, "bot, ars, nmg, dsp or vol"},
+        {SOLID_PLATE, "bot of plates"},
+        {SOLID_EXTRUDE, "extrude or ebm"},
+        {SOLID_REVOLVE, "revolve"},
+        {SOLID_CROSSED_ETO, "eto across its axis"},
+    };
+    return names.at(type);
 }
 
 std::string type_without_form(const CompiledScene& scene) {

@@ -5,6 +5,7 @@
 // keeps the rest, so that no method pays for solids that are elsewhere.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -62,6 +63,30 @@ public:
 
     const std::vector<Node>& nodes() const { return nodes_; }
     const std::vector<Root>& roots() const { return roots_; }
+
+    /// A function of the region that is less than 0 inside it, from leaf(candidate) of its solids: a union has the
+    /// least of its operands', an intersection the greatest, a complement the negative. The empty set has `outside`,
+    /// which is greater than 0. `values` is memory.
+    template <class T, class Leaf>
+    T function_of(const Root& root, T outside, std::vector<T>& values, const Leaf& leaf) const {
+        const auto of = [&](Operand operand) -> T {
+            if (operand >= EMPTY_SET) return operand == EMPTY_SET ? outside : static_cast<T>(-outside);
+            return operand & 1 ? static_cast<T>(-values[operand >> 1]) : values[operand >> 1];
+        };
+        values.resize(nodes_.size());
+        for (std::uint32_t i = root.first; i < root.last; ++i) {
+            const Node& node = nodes_[i];
+            if (node.gate == Gate::leaf) {
+                values[i] = leaf(node.solid);
+                continue;
+            }
+            const T a = of(node.left), b = of(node.right);
+            values[i] = node.gate == Gate::union_         ? std::min(a, b)
+                        : node.gate == Gate::intersection ? std::max(a, b)
+                                                          : std::max(std::min(a, b), static_cast<T>(-std::max(a, b)));
+        }
+        return of(root.operand);
+    }
 
 private:
     Operand live(Operand operand) const;

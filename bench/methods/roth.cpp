@@ -20,9 +20,7 @@
 // costs no merge; the operands of a wide union are merged two by two; lists lie in one stack of numbers, without an
 // allocation.
 // Fails where trees are large: a region of 10^5 nodes is walked whole for one hit solid.
-#include <limits>
-#include <mutex>
-
+#include "each_ray.hpp"
 #include "list.hpp"
 #include "ray_events.hpp"
 
@@ -223,98 +221,66 @@ private:
     std::uint64_t visited_ = 0;
 };
 
-class Roth final : public Tracer {
+struct Shared : EventScene {
+    std::vector<std::vector<Node>> trees = {};  ///< one a region
+};
+
+class Worker {
 public:
-    Roth(const Subject& subject, const TraceOptions& options)
-        : rays_(subject.compiled), options_(options), regions_of_(regions_of_solids(subject.compiled)) {
-        for (const FlatTree& tree : subject.compiled.flat_trees) trees_.push_back(from_the_root(tree, options.planted));
-    }
+    explicit Worker(const Shared& shared) : shared_(shared) {}
+    Counts counts() const { return {{"nodes a ray", {combiner_.visited()}}}; }
 
-    std::vector<Answer> trace(const std::vector<Ray>& rays) override {
-        std::vector<Answer> answers(rays.size());
-        visited_ = 0;
-        traced_ = rays.size();
-        seconds_ = trace_in_pieces(options_, 64, answers, [&](std::size_t first, std::size_t last) {
-            Memory memory;
-            for (std::size_t i = first; i < last; ++i) answers[i].stretches = trace(rays[i], memory);
-            const std::lock_guard lock(mutex_);
-            visited_ += memory.combiner.visited();
-        });
-        return answers;
-    }
-    double seconds() const override { return seconds_; }
-    std::map<std::string, double> figures() const override {
-        return {
-            {"nodes a ray", static_cast<double>(visited_) / static_cast<double>(std::max<std::size_t>(traced_, 1))}};
-    }
-
-private:
-    struct Memory {
-        RayEvents events;
-        SolidLists solids;
-        Combiner combiner;
-        std::vector<std::uint32_t> regions, claimed[2], first;
-        std::vector<std::uint8_t> moved;
-    };
-
-    Sequence trace(const Ray& ray, Memory& memory) const {
-        RayEvents& events = memory.events;
-        events.find(rays_, ray);
-        auto& [owners, here] = memory.claimed;
-        classify(0, owners, memory);
-        if (events.marked) {
+    void trace(const Ray& ray, Answer& answer) {
+        events_.find(shared_.rays, ray);
+        auto& [owners, here] = claimed_;
+        classify(0, owners);
+        if (events_.marked) {
             // Steps that no marked segment covers are the same on all sides.
-            const auto for_touched = [&events](const auto& change) {
-                for (const RayEvents::Segment& segment : events.segments)
+            const auto for_touched = [this](const auto& change) {
+                for (const RayEvents::Segment& segment : events_.segments)
                     for (std::uint32_t step = segment.in; segment.missed && step < segment.out; ++step) change(step);
             };
             // Where two solids are, and so two sides.
-            std::vector<std::uint32_t>& first = memory.first;
-            std::vector<std::uint8_t>& moved = memory.moved;
-            first.assign(events.steps(), NONE);
-            moved.assign(events.steps(), 0);
-            for (const RayEvents::Segment& segment : events.segments)
+            first_.assign(events_.steps(), NONE);
+            moved_.assign(events_.steps(), 0);
+            for (const RayEvents::Segment& segment : events_.segments)
                 for (std::uint32_t step = segment.in; step < segment.out; ++step) {
-                    moved[step] = moved[step] || (first[step] != NONE && first[step] != segment.solid);
-                    first[step] = segment.solid;
+                    moved_[step] = moved_[step] || (first_[step] != NONE && first_[step] != segment.solid);
+                    first_[step] = segment.solid;
                 }
-            for_touched([&](std::uint32_t step) { owners[step] = moved[step] ? NONE : owners[step]; });
+            for_touched([&](std::uint32_t step) { owners[step] = moved_[step] ? NONE : owners[step]; });
             for (std::uint32_t side = 1; side < SIDES; ++side) {
-                classify(kernel::missed_on(side), here, memory);
+                classify(kernel::missed_on(side), here);
                 for_touched([&](std::uint32_t step) {
-                    if (moved[step]) owners[step] = std::min(owners[step], here[step]);
+                    if (moved_[step]) owners[step] = std::min(owners[step], here[step]);
                 });
             }
         }
-        return stretches_of(events, owners);
+        answer.stretches = stretches_of(events_, owners, shared_.first_hits);
     }
 
+private:
     /// Of each step the least region that claims it.
-    void classify(std::uint32_t missed, std::vector<std::uint32_t>& claimed, Memory& memory) const {
-        claimed.assign(memory.events.steps(), NONE);
-        memory.solids.fill(memory.events, missed);
-        std::vector<std::uint32_t>& regions = memory.regions;
-        regions.clear();
-        for (const SolidLists::Entry& entry : memory.solids.entries)
-            regions.insert(regions.end(), regions_of_[entry.solid].begin(), regions_of_[entry.solid].end());
-        std::sort(regions.begin(), regions.end());
-        regions.erase(std::unique(regions.begin(), regions.end()), regions.end());
-        for (const std::uint32_t region : regions) {
-            const std::vector<std::uint32_t>& toggles = memory.combiner.classify(trees_[region], memory.solids);
+    void classify(std::uint32_t missed, std::vector<std::uint32_t>& claimed) {
+        claimed.assign(events_.steps(), NONE);
+        solids_.fill(events_, missed);
+        regions_.clear();
+        for (const SolidLists::Entry& entry : solids_.entries) shared_.add_regions_of(entry.solid, regions_);
+        sort_once(regions_);
+        for (const std::uint32_t region : regions_) {
+            const std::vector<std::uint32_t>& toggles = combiner_.classify(shared_.trees[region], solids_);
             for (std::size_t i = 0; i + 1 < toggles.size(); i += 2)
                 for (std::uint32_t step = toggles[i]; step < toggles[i + 1]; ++step)
                     claimed[step] = std::min(claimed[step], region);
         }
     }
 
-    SceneRays rays_;
-    TraceOptions options_;
-    std::vector<std::vector<std::uint32_t>> regions_of_;
-    std::vector<std::vector<Node>> trees_;  ///< one a region
-    double seconds_ = 0;
-    std::uint64_t visited_ = 0;
-    std::size_t traced_ = 0;
-    std::mutex mutex_;
+    const Shared& shared_;
+    RayEvents events_;
+    SolidLists solids_;
+    Combiner combiner_;
+    std::vector<std::uint32_t> regions_, claimed_[2], first_;
+    std::vector<std::uint8_t> moved_;
 };
 
 }  // namespace
@@ -331,7 +297,10 @@ Method roth() {
                 "chain merges a growing list at each node. No family makes it wrong.",
             .knob = "",
             .prepare = [](const Subject& subject, const TraceOptions& options) {
-                return std::make_unique<Roth>(subject, options);
+                Shared shared{{subject, options}};
+                for (const FlatTree& tree : subject.compiled.flat_trees)
+                    shared.trees.push_back(from_the_root(tree, options.planted));
+                return trace_each_ray<Worker>(std::move(shared), options);
             }};
 }
 

@@ -20,14 +20,10 @@
 #include "each_ray.hpp"
 #include "list.hpp"
 #include "ray_domain.hpp"
-#include "region_trees.hpp"
-#include "scene_rays.hpp"
-#include "stretches.hpp"
 
 namespace csgrt::bench {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 /// More steps than this in one region, and the ray is given up.
 constexpr std::uint64_t most_steps = 50'000;
 
@@ -36,14 +32,12 @@ struct Shared : SharedScene {
     double epsilon;  ///< millimetres
 };
 
-class Worker {
+class Worker : RegionWorker<Shared> {
 public:
-    explicit Worker(const Shared& shared) : shared_(shared), live_(shared.trees) {}
+    explicit Worker(const Shared& shared) : RegionWorker(shared) {}
 
     void trace(const Ray& ray, Answer& answer) {
-        shared_.rays.candidates(ray, -infinity, solids_);
-        live_.build(solids_);
-        if (live_.roots().empty()) return;
+        if (!begin(ray)) return;
         const CompiledScene& scene = shared_.rays.scene();
         ray_ = ray;
         speed_ = std::hypot(ray.direction.x, ray.direction.y, ray.direction.z);
@@ -51,37 +45,18 @@ public:
         domain_ = search_domain(scene, ray);
         within_.clear();
         for (const std::uint32_t solid : solids_) within_.push_back(in_box(scene.solid_boxes[solid], ray, domain_));
-        values_.resize(live_.nodes().size());
-        nearest_ = infinity;
-        claimed_.clear();
-        for (const LiveTrees::Root& root : live_.roots()) answer.answered = answer.answered && march(root);
-        if (answer.answered) answer.stretches = owners(claimed_, 2 * epsilon_, shared_.first_hits);
+        answer_by(answer, 2 * epsilon_, [&](const LiveTrees::Root& root) { return march(root); });
     }
-    std::map<std::string, std::uint64_t> counts() const { return {{"steps a ray", all_steps_}}; }
+    Counts counts() const { return {{"steps a ray", {all_steps_}}}; }
 
 private:
-    double operand_bound(Operand operand) const {
-        if (operand >= EMPTY_SET) return operand == EMPTY_SET ? infinity : -infinity;
-        return operand & 1 ? -values_[operand >> 1] : values_[operand >> 1];
-    }
-
     /// The bound of the region at t, in units of the ray's parameter.
     double bound(const LiveTrees::Root& root, double t) {
         ++all_steps_;
         const Vec3 &o = ray_.origin, &d = ray_.direction;
         const Vec3 point{o.x + t * d.x, o.y + t * d.y, o.z + t * d.z};
-        for (std::uint32_t i = root.first; i < root.last; ++i) {
-            const LiveTrees::Node& node = live_.nodes()[i];
-            if (node.gate == Gate::leaf) {
-                values_[i] = shared_.bounds.at(solids_[node.solid], point);
-                continue;
-            }
-            const double a = operand_bound(node.left), b = operand_bound(node.right);
-            values_[i] = node.gate == Gate::union_         ? std::min(a, b)
-                         : node.gate == Gate::intersection ? std::max(a, b)
-                                                           : std::max(std::min(a, b), -std::max(a, b));
-        }
-        return operand_bound(root.operand) / speed_;
+        const auto leaf = [&](std::uint32_t candidate) { return shared_.bounds.at(solids_[candidate], point); };
+        return live_.function_of(root, infinity, values_, leaf) / speed_;
     }
 
     /// False: too many steps.
@@ -109,7 +84,7 @@ private:
                 if (inside) {
                     claimed_.push_back({root.region, in, at});
                     if (shared_.first_hits && at > 0 && at - in > 2 * epsilon_) {
-                        nearest_ = std::min(nearest_, in + 2 * epsilon_);
+                        keep_nearest(in, 2 * epsilon_);
                         return true;
                     }
                 }
@@ -123,15 +98,10 @@ private:
         return true;
     }
 
-    const Shared& shared_;
-    LiveTrees live_;
-    std::vector<std::uint32_t> solids_;
     std::vector<Domain> within_;  ///< by candidate: where the ray is in its box
     std::vector<double> values_;  ///< by node
-    std::vector<Stretch> claimed_;
     Ray ray_;
     Domain domain_;
-    double nearest_ = infinity;  ///< first hits: what begins behind it does not matter
     double speed_ = 1, epsilon_ = 0;
     std::uint64_t all_steps_ = 0;
 };
@@ -159,8 +129,7 @@ Method sphere_tracing() {
             throw Error(Status::usage,
                         "sphere tracing: there is no bound of the distance to a solid of type " + missing);
         return trace_each_ray<Worker>(
-            Shared{SharedScene(subject, options), DistanceBounds(subject.compiled), knob_length(subject, options)},
-            options);
+            Shared{{subject, options}, DistanceBounds(subject.compiled), knob_length(subject, options)}, options);
     };
     return m;
 }

@@ -50,10 +50,8 @@ std::unique_ptr<Tracer> prepare(const Subject& subject, const TraceOptions& opti
         initial.resize((above.size() + 31) / 32);
         for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
             const PositiveTree::Node& node = tree.nodes[i];
-            value[i] = node.gate == Gate::leaf           ? node.complement
-                       : node.gate == Gate::intersection ? value[node.left] && value[node.right]
-                       : node.gate == Gate::union_       ? value[node.left] || value[node.right]
-                                                         : value[node.left] != value[node.right];
+            value[i] =
+                node.gate == Gate::leaf ? node.complement : value_of(node.gate, value[node.left], value[node.right]);
             initial[number[i] / 32] |= static_cast<std::uint32_t>(value[i]) << number[i] % 32;
         }
     }
