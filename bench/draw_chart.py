@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Draws what csgrt_chart measured: an SVG and a PNG a file, named like it, and one HTML page with advice.
+"""Draws what csgrt_chart measured: a PNG a file, named like it, and one HTML page with advice.
 
     bench/draw_chart.py [-o FOLDER] [--outside OTHER.json]... MEASURED.json...
 
 Programs that csgrt_chart cannot call are judged by another program, which writes a file of the same kind
 (csgrt_judge_pov). Their rows join the charts of devices of the same type. The time of such a row is a ratio to csgrt's
-default, measured beside it in its own file.
+default, measured beside it in its own file. What has been joined is written, too: a file a device.
 
 Needs matplotlib, and plotly for the page (Debian, Ubuntu: python3-matplotlib, python3-plotly).
 """
@@ -19,7 +19,7 @@ import sys
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, os.path.join(HERE, "chart"))
-from pareto import NOISE, front, judged_on_all, beaten_at  # noqa: E402
+from pareto import beaten_at, mark_all  # noqa: E402
 
 try:
     import matplotlib
@@ -27,11 +27,6 @@ try:
     from matplotlib import pyplot, ticker
 except ImportError:
     sys.exit("draw_chart.py: matplotlib is not there (Debian, Ubuntu: apt-get install python3-matplotlib)")
-
-# The judge itself: it has no errors by definition, so it is drawn but does not compete.
-JUDGE = "113 bits"
-# A method that answers a smaller share of the rays does not compete.
-WHOLE = 0.999
 
 ADVICE = """<ul>
 <li><b>To measure, cut or check anything: the default.</b> Double precision, bracketed quartics; ends on one surface
@@ -67,11 +62,8 @@ class Measured:
         self.data, self.mode = data, mode
         self.totals = {t["variant"]: t for t in data["totals"] if t["mode"] == mode and t.get("decided")}
         self.results = [r for r in data["results"] if r["mode"] == mode and "error" not in r and r["decided"]]
-        competing = {n: t for n, t in self.totals.items() if t.get("of_default") and n != JUDGE}
-        most = judged_on_all(self.totals)
-        self.whole = {n for n, t in self.totals.items() if n in most and t["answered_share"] >= WHOLE}
-        competing = {n: t for n, t in competing.items() if n in self.whole}
-        self.front = front({n: (t["of_default"], t["wrong_ppm"]) for n, t in competing.items()})
+        self.whole = {n for n, t in self.totals.items() if "wrong rays" in t["whole"]}
+        self.front = {n for n, t in self.totals.items() if "wrong rays" in t["front"]}
 
 
 def join(data, outside):
@@ -88,6 +80,17 @@ def join(data, outside):
             data[kind].append(row)
     known = {m["name"] for m in data["methods"]}
     data["methods"] += [m for m in outside["methods"] if m["name"] not in known]
+
+
+def save(data, path):
+    """As csgrt_chart writes it: an element of a list a line."""
+    def text(value):
+        lines = isinstance(value, list) and value
+        return "[\n" + ",\n".join(map(text, value)) + "]" if lines and isinstance(value[0], dict) else \
+            json.dumps(value, separators=(",", ":"), ensure_ascii=False)
+    with open(path + ".part", "w", encoding="utf-8") as file:
+        file.write("{" + ",\n".join(f"{json.dumps(key)}: {text(value)}" for key, value in data.items()) + "}\n")
+    os.replace(path + ".part", path)
 
 
 def scatter(axes, measured):
@@ -152,13 +155,11 @@ def draw(data, modes, name, folder):
     figure.suptitle(f"csgrt {data['csgrt']} on {data['device']}: up to {decided:,} decided rays a method; time: "
                     f"geometric mean over {len(data['timed_workloads'])} workloads, {data['size']} x {data['size']}",
                     fontsize=9)
-    for kind in ("svg", "png"):
-        path = os.path.join(folder, f"{name}.{kind}")
-        # Without a date and a version the same figures give the same file.
-        metadata = dict.fromkeys(("Creator", "Date", "Format", "Type")) if kind == "svg" else None
-        figure.savefig(path + ".part", format=kind, dpi=100, metadata=metadata)
-        os.replace(path + ".part", path)
-        print(path)
+    path = os.path.join(folder, name + ".png")
+    # Without a version the same figures give the same file.
+    figure.savefig(path + ".part", format="png", dpi=100, metadata={"Software": None})
+    os.replace(path + ".part", path)
+    print(path)
     pyplot.close(figure)
 
 
@@ -192,7 +193,6 @@ def page(measured, modes, folder):
                  "install python3-plotly)")
     parts = {
         "ADVICE": ADVICE + "".join(facts(data, modes) for data in measured), "HOW": HOW,
-        "NOISE_VALUE": str(NOISE), "WHOLE_VALUE": str(WHOLE),
         "PLOTLY": get_plotlyjs().replace("</script", "<\\/script"),
         "DATA": json.dumps(measured, separators=(",", ":")).replace("</", "<\\/"),
     }
@@ -222,16 +222,20 @@ def main():
                            help="what csgrt_judge_pov wrote; may be repeated")
     arguments.add_argument("-o", "--output", default=".", help="folder for the pictures and the page")
     options = arguments.parse_args()
-    matplotlib.rcParams.update({"svg.fonttype": "none", "svg.hashsalt": "csgrt", "font.size": 8.5})
+    matplotlib.rcParams.update({"font.size": 8.5})
     os.makedirs(options.output, exist_ok=True)
     measured = []
     outside = [read(path)[0] for path in options.outside]
     for path in options.measured:
         data, modes = read(path)
-        for other in outside:
-            if other["device_type"] == data["device_type"]:
-                join(data, other)
-        draw(data, modes, os.path.splitext(os.path.basename(path))[0], options.output)
+        name = os.path.splitext(os.path.basename(path))[0]
+        joining = [other for other in outside if other["device_type"] == data["device_type"]]
+        for other in joining:
+            join(data, other)
+        if joining:
+            save(data, os.path.join(options.output, name + ".json"))
+        mark_all(data)
+        draw(data, modes, name, options.output)
         measured.append(data)
         for mode in modes:
             print(f"{data['device']}, {mode}: the front is {', '.join(sorted(Measured(data, mode).front))}")

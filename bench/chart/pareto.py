@@ -2,6 +2,16 @@
 
 # Times are medians on a machine that may have other work: smaller relative differences are noise.
 NOISE = 0.1
+# The judge itself: it has no errors by definition, so it is drawn but does not compete.
+JUDGE = "113 bits"
+# A method that answers a smaller share of the rays does not compete.
+WHOLE = 0.999
+# What a row errs by. None: it tells no distances, or one is infinite.
+ERRORS = {
+    "wrong rays": lambda row: row["wrong_ppm"],
+    "distance, mm": lambda row: row["error_mm"]["p999"] if row["ends"] else None,
+    "distance, ulp": lambda row: row["error_ulp"]["p999"] if row["ends"] else None,
+}
 
 
 def dominates(a, b, noise=NOISE):
@@ -37,6 +47,38 @@ def judged_on_all(totals):
     """
     most = max((t["rays"] for t in totals.values()), default=0)
     return {name for name, t in totals.items() if t["rays"] == most}
+
+
+def mark(rows, times):
+    """Adds to rows of one mode and one choice of rays what a chart shows of them.
+
+    `time`: in times of the default's, its own (`own_time`), else by `times`, {variant: time}. `errors`: by name.
+    `whole` and `front`: the names of the errors by which it competes, and of those by which no other one beats it.
+    """
+    beside = next((row.get("ns_per_ray") for row in rows if row["variant"] == "default"), None)
+    for row in rows:
+        own = row.get("of_default") or (beside and row.get("ns_per_ray") and row["ns_per_ray"] / beside)
+        row.update(time=own or times.get(row["variant"]), own_time=bool(own), whole=[], front=[],
+                   errors={name: value(row) for name, value in ERRORS.items()})
+    for name in ERRORS:
+        drawn = {row["variant"]: row for row in rows if row["time"] and row["errors"][name] is not None}
+        whole = {v for v in judged_on_all(drawn) if drawn[v]["answered_share"] >= WHOLE}
+        for variant in whole:
+            drawn[variant]["whole"].append(name)
+        for variant in front({v: (drawn[v]["time"], drawn[v]["errors"][name]) for v in whole - {JUDGE}}):
+            drawn[variant]["front"].append(name)
+
+
+def mark_all(data):
+    """mark() for all that a file of csgrt_chart has: `totals`, `families` and `results`."""
+    times = {(t["mode"], t["variant"]): t.get("of_default") for t in data["totals"]}
+    choices = {}
+    for kind in ("totals", "families", "results"):
+        for row in data[kind]:
+            if "error" not in row and row["decided"]:
+                choices.setdefault((kind, row["mode"], row["family"], row["workload"]), []).append(row)
+    for (_, mode, _, _), rows in choices.items():
+        mark(rows, {variant: time for (of, variant), time in times.items() if of == mode})
 
 
 def beaten_at(results, noise=NOISE):
