@@ -133,9 +133,9 @@ protected:
         surfaces.clear();
         begin_.assign(1, 0);
         for (const std::uint32_t solid : solids_) {
-            ends_.clear();
-            shared_.rays.append_ends(solid, ray, -infinity, ends_);
-            for (const kernel::End& end : ends_) surfaces.push_back(kept(end.t));
+            boundaries_.clear();
+            shared_.rays.append_boundaries(solid, ray, -infinity, boundaries_);
+            for (const kernel::Boundary& boundary : boundaries_) surfaces.push_back(kept(boundary.t));
             begin_.push_back(surfaces.size());
         }
     }
@@ -152,7 +152,7 @@ protected:
     double nearest_ = infinity;  ///< first hits: what begins behind it does not matter
 
 private:
-    std::vector<kernel::End> ends_;
+    std::vector<kernel::Boundary> boundaries_;
     std::vector<std::size_t> begin_;  ///< of each candidate's surfaces
 };
 
