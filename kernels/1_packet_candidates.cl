@@ -91,7 +91,7 @@ __kernel void count_packet_candidates(__global const Frame* frame, __global cons
     }
 }
 
-// Where a packet's candidates are stored.
+// Memory for a packet's candidates.
 typedef struct {
     packet_ray3 rays;
     double8 t_min;

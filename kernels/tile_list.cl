@@ -20,7 +20,7 @@ __kernel void count_tiles(__global const unsigned char* costs, u32 count, __glob
     if (item < COST_CLASSES && tiles[item]) atomic_add(report->tiles + item, tiles[item]);
 }
 
-// How many entries of the list a tile of the class has.
+// The number of entries in the list for a tile of the class.
 static u32 parts_of(u32 class_number, u32 in_parts) { return in_parts && class_number >= PARTED_CLASS ? PARTS : 1u; }
 
 // Are the most expensive tiles listed in parts? The list has room for one entry a tile. The parts use the entries of

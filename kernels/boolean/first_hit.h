@@ -38,6 +38,7 @@ typedef struct {
     u32 beyond;                               // see cover
 } sweep;
 
+// The tables of a scene that first hits need.
 typedef struct {
     Geometry g;
     GLOBAL const BvhNode* nodes;

@@ -17,6 +17,7 @@ typedef struct {
 #endif
 } ray_rows;
 
+// A row: the part of a ray that one region holds.
 typedef struct {
     wide in, out;
     u32 in_boundary, out_boundary;  // of the ray; NONE: the range cuts it there

@@ -9,6 +9,7 @@
 
 #include "segments.h"
 
+// A ray in a solid's local space. Its parameter u is the world's t less `shift`, so numbers near the solid stay small.
 typedef struct {
     vec3 o, d;   // local; o is the closest approach: o . d is about 0
     real shift;  // t = shift + u, u along (o, d)

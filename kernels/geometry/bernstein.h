@@ -48,6 +48,8 @@ FN u32 coefficient_changes(const real* c, u32 degree) {
     return count;
 }
 
+// The state of the walk through a polynomial's sign changes: the position in the binary tree of intervals, and the
+// interval of the last change.
 typedef struct {
     u32 depth;
     real index, size;  // the next interval: [index, index + 1] size; a whole number, and 2^-depth

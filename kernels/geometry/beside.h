@@ -27,6 +27,7 @@
 #define STEEPEST REAL(0x1p60)
 #define SAME_FACE REAL(0x1p-20)  // the angle between two normals below which the faces are one
 
+// The outermost faces in which a ray runs, and the step aside that is taken.
 typedef struct {
     u32 step;        // 0: the ray is where it is; else 1 to 4
     u32 found;       // the ray runs in some face

@@ -18,6 +18,7 @@
 
 #define LEAVES 0x80000000u  // set in Boundary.surface of a boundary where the ray leaves such a solid
 
+// The crossings of a ray with one solid, collected in the memory of the solid's boundaries.
 typedef struct {
     ENDS Boundary* boundaries;  // memory for the solid's boundaries; 0: they are only counted
     u32 solid;

@@ -13,6 +13,7 @@
 #define SKETCH_WORDS 5  // before the curves
 #define CURVE_SIZE 13   // control points at most: degree 12 (Limits::curve_degree)
 
+// A sketch in the scene's tables.
 typedef struct {
     GLOBAL const real* lines;
     GLOBAL const u32* curves;

@@ -12,6 +12,7 @@
 
 #include "crossings.h"
 
+// A solid under construction between two planes: the crossings that stay so far, and their parities at the planes.
 typedef struct {
     span between;
     int keeps_between;      // 1: the part between the planes stays; 0: the part outside

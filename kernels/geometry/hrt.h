@@ -25,6 +25,7 @@
 #define HRT_NOISE BY_PRECISION(1e-5, 1e-14, 1e-32)
 #define HRT_ROOT_STEPS (sizeof(real) == 16 ? 240 : 120)
 
+// A and B along a ray: parabolas in the ray's parameter u; z is linear in it.
 typedef struct {
     real a_least, a_at, a_rate;  // A = a_least + a_rate (u - a_at)^2
     real b_least, b_at, b_rate;  // B likewise
@@ -32,6 +33,7 @@ typedef struct {
     u32 has_zero;
 } hrt_ray;
 
+// The values at one position u of the ray.
 typedef struct {
     real u, value, slope;
     real a, a_slope, z;

@@ -40,6 +40,7 @@
 #define METABALL_POINTS 15                                 // where the points begin
 #define METABALL_POINT 5                                   // reals a point
 
+// A ray in a metaball's local space, with the metaball's points.
 typedef struct {
     GLOBAL const real* points;
     GLOBAL const BvhNode* nodes;
@@ -49,6 +50,7 @@ typedef struct {
     slab_ray slab;
 } metaball_ray;
 
+// F and its slope at one position u of the ray.
 typedef struct {
     real u, value, slope;
 } metaball_point;

@@ -5,6 +5,7 @@
 
 #include "../shared/base.h"
 
+// All values from `low` to `high`.
 typedef struct {
     real low, high;
 } range;

@@ -9,6 +9,7 @@
 
 #include "tables.h"
 
+// Up to two segments of a ray in one solid.
 typedef struct {
     tag count;  // segments: 0, 1 or 2
     real in0, out0, in1, out1;

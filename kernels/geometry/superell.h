@@ -54,6 +54,7 @@ FN real superell_rate(superell_axis a, real u) {
     return value < 0 ? -a.rate : a.rate;
 }
 
+// The three coordinates along a ray, and the solid's exponents.
 typedef struct {
     superell_axis x, y, z;
     real p, q, r;
@@ -266,7 +267,7 @@ FN crossings superell_cross(GLOBAL const real* p, ray3 r, crossings c) {
     ray.x = superell_axis_of(l.o.x, d.x, s.low, s.high);
     ray.y = superell_axis_of(l.o.y, d.y, s.low, s.high);
     ray.z = superell_axis_of(l.o.z, d.z, s.low, s.high);
-    // On a ray through the z axis x and y are 0 at once. If the two zeros were a bit apart, the slope of x where x is 0
+    // A ray through the z axis has x and y 0 at once. If the two zeros were a bit apart, the slope of x where x is 0
     // alone would be infinite, though G is bent nowhere.
     if (ray.twist == 0 && d.x != 0 && d.y != 0) {
         ray.y.zero = ray.x.zero;

@@ -4,6 +4,7 @@
 
 #include "../shared/layout.h"
 
+// The tables of a scene that the geometry needs.
 typedef struct {
     GLOBAL const SolidRecord* solids;
     GLOBAL const real* reals;

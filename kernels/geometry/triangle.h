@@ -28,6 +28,7 @@
 #define MESH_FACING 3     // 0: any; else corners run counterclockwise (1) or clockwise (2), seen from outside
 #define MESH_TRIANGLES 4  // the first triangle's word
 
+// A ray after its axes are turned and sheared, so that it runs along z.
 typedef struct {
     local_ray ray;
     int axis;      // the axis along which the ray runs most
@@ -71,6 +72,7 @@ FN int side_of_edge(vec3 a, vec3 b, real product) {
     return rate > 0 ? 1 : rate < 0 ? -1 : 0;
 }
 
+// The answer of the test of one triangle.
 typedef struct {
     int hit;
     real t;         // along the ray

@@ -16,7 +16,7 @@ FN segments undecided_where(lane_mask mask, segments h) {
     return h;
 }
 
-// The piece of a ray inside a quadratic, as in polynomial.h, where a > 0.
+// The part of a ray inside a quadratic, as in polynomial.h, where a > 0.
 FN segments quadratic_inside(real a, real b, real c, real discriminant, real shift, span s, u32 surface) {
     return undecided_where(s.low < s.high && !(a > 0), between_roots(a, b, c, discriminant, shift, s, surface));
 }

@@ -16,6 +16,7 @@ typedef struct {
     real r, g, b;
 } rgb;
 
+// The finish of a surface, in the numbers of the formula above.
 typedef struct {
     rgb color;
     real specular, diffuse, ambient, glow;

@@ -44,6 +44,7 @@
 #define SOLID_CENTER
 #endif
 
+// A solid: its type, and where its numbers, words, planes and starts are.
 typedef struct {
     u32 type;
     u32 first_real;
@@ -164,6 +165,7 @@ typedef struct {
 #define RAKE_XOR 5u
 #define REGION_LINK 7u
 
+// The appearance of a region.
 typedef struct {
     float r, g, b;
     float specular, diffuse, ambient;
@@ -171,6 +173,7 @@ typedef struct {
     float glow;  // the share of its colour that it shows in any light
 } MaterialRecord;
 
+// A light.
 typedef struct {
     wide x, y, z;     // position, or the direction to the light if it is infinitely far away
     wide w;           // 1, or 0 if the light is infinitely far away

@@ -9,6 +9,7 @@
 
 #include "layout.h"
 
+// A ray for the slab test, in float, relative to the hierarchy's center.
 typedef struct {
     single px, py, pz;      // a point of the ray, relative to the center
     single ix, iy, iz;      // 1 / direction, or MOST_INVERSE

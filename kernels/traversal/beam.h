@@ -10,6 +10,7 @@
 #include "camera.h"
 #include "../shared/slab.h"
 
+// The middle ray of a tile, and its thickness.
 typedef struct {
     slab_ray slabs;
     float pad;   // how much boxes grow

@@ -9,6 +9,7 @@
 
 #include "../shared/slab.h"
 
+// A position in the walk: the next node, and the number after the last.
 typedef struct {
     u32 node, end;
 } bvh_cursor;

@@ -5,6 +5,7 @@
 
 #include "view.h"
 
+// A pixel of a ray's number; `inside` is 0 if the tile has it outside the picture.
 typedef struct {
     u32 x, y;  // from the top left
     int inside;

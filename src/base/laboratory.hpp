@@ -24,6 +24,7 @@ inline constexpr std::pair<std::string_view, Quartic> quartic_names[] = {
     {"yuksel", Quartic::yuksel},
 };
 
+/// The methods of a Renderer for measurements. The defaults are those of every user.
 struct Laboratory {
     Quartic quartic = Quartic::bracketed;
     bool contraction = false;   ///< the device's compiler may round a product and a sum as one (fma)

@@ -14,6 +14,8 @@
 
 namespace csgrt {
 
+/// A pool of threads that several calls share. A call's own thread always works, too, so a call ends even if all
+/// threads of the pool are busy.
 class Pool {
 public:
     /// The pool of this process. It is never destroyed: a program may end, or fork, while threads work.

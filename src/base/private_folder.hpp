@@ -10,6 +10,7 @@
 
 namespace csgrt {
 
+/// A temporary folder, removed with its contents when the object is destroyed.
 class PrivateFolder {
 public:
     /// Makes a folder below that for temporary files. Throws Error (file).

@@ -9,8 +9,8 @@
 
 namespace csgrt {
 
-/// As std::vector, except for copies: they share the elements until one of them changes its own. The holder of the only
-/// copy may write to different elements from several threads.
+/// A std::vector whose copies share the elements until one of them changes its own. The holder of the only copy may
+/// write to different elements from several threads.
 template <class T>
 class SharedVector {
 public:

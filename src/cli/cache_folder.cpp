@@ -17,7 +17,7 @@ std::string variable(const char* name) {
     return value ? value : "";
 }
 
-/// PoCL's own order: POCL_CACHE_DIR, XDG_CACHE_HOME, HOME.
+/// PoCL's cache folder, by PoCL's own order: POCL_CACHE_DIR, XDG_CACHE_HOME, HOME.
 fs::path cache_folder() {
     if (const std::string folder = variable("POCL_CACHE_DIR"); !folder.empty()) return folder;
     if (const std::string folder = variable("XDG_CACHE_HOME"); !folder.empty())
@@ -27,7 +27,7 @@ fs::path cache_folder() {
     return {};
 }
 
-/// Writes a file to find out: permissions do not show full or read-only file systems.
+/// Can the folder be written? The test writes a file: permissions do not show full or read-only file systems.
 bool can_write(const fs::path& folder) {
     if (folder.empty()) return false;
     std::error_code error;
@@ -60,7 +60,7 @@ void ensure_cache_folder() {
     if (!mkdtemp(made.data())) return;  // no folder can be written: a GPU's driver may work without one
     temporary_folder() = made;
     setenv("POCL_CACHE_DIR", made.c_str(), 1);
-    // Registered before the driver is loaded, so it runs after whatever the driver does at exit.
+    // The removal is registered before the driver is loaded, so it runs after the driver's own work at exit.
     constexpr auto remove = [] {
         std::error_code ignored;
         fs::remove_all(temporary_folder(), ignored);

@@ -10,7 +10,8 @@
 namespace csgrt::cli {
 
 void* open_component(const char* library) {
-    // The folder of libcsgrt, which is loaded already: a sanitizer's dlopen does not use this program's search path.
+    // The path is that of libcsgrt, which is loaded already: a sanitizer's dlopen does not use this program's search
+    // path.
     Dl_info core;
     std::filesystem::path path;
     if (dladdr(reinterpret_cast<const void*>(&version), &core))

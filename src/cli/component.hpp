@@ -1,10 +1,10 @@
-// Components of csgrt that a command loads when it needs them.
+// Component: a part of csgrt that a command loads when it needs it.
 #pragma once
 
 namespace csgrt::cli {
 
-/// The library of that name in the folder of libcsgrt, or wherever the system finds it, as dlopen() returns it; null:
-/// dlerror() tells why not.
+/// Opens the library of this name in the folder of libcsgrt, or wherever the system finds it, as dlopen() does; null:
+/// dlerror() has the reason.
 void* open_component(const char* library);
 
 }  // namespace csgrt::cli

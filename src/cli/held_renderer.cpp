@@ -11,7 +11,7 @@ namespace {
 
 bool is_busy(const Renderer& renderer) { return !renderer.statistics().awaited_device.empty(); }
 
-/// Renderers that were not destroyed. end_process() empties it or exits, so no static destructor destroys them.
+/// Renderers that were not destroyed. end_process() empties the list or exits, so no static destructor destroys them.
 std::vector<Renderer> held;
 
 }  // namespace

@@ -1,4 +1,4 @@
-// A command's Renderer, which does not delay the end of the process.
+// Held renderer: a command's Renderer, which does not delay the end of the process.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +9,7 @@
 
 namespace csgrt::cli {
 
-/// Owns a Renderer. If a driver is still compiling kernels for it, the destructor does not destroy the Renderer: that
+/// Owns a Renderer. If a driver is still compiling kernels for it, the destructor does not destroy the Renderer: it
 /// would wait for the driver, which nothing can stop, and the kernels are no longer needed.
 class HeldRenderer {
 public:
@@ -20,7 +20,7 @@ public:
 
     Renderer& operator*() noexcept { return renderer_; }
     Renderer* operator->() noexcept { return &renderer_; }
-    /// The model's and the devices', but for those that an earlier call has returned.
+    /// The warnings of the model and the devices, except those that an earlier call has returned.
     std::vector<Warning> new_warnings();
 
 private:
@@ -28,8 +28,8 @@ private:
     std::size_t returned_ = 0;
 };
 
-/// The end of main(): returns `status`. If a driver is still compiling for a Renderer that was not destroyed, the
-/// output is flushed and the process exits here with `status`, so that no destructor runs while the driver works.
+/// Ends main(): returns `status`. If a driver is still compiling for a Renderer that was not destroyed, the output is
+/// flushed and the process exits here with `status`, so that no destructor runs while the driver works.
 int end_process(int status);
 
 }  // namespace csgrt::cli

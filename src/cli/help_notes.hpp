@@ -1,4 +1,4 @@
-// The notes on the help pages, below the options. Lines of at most 100 bytes.
+// Help notes: the texts on the help pages, below the options. Lines have at most 100 bytes.
 #pragma once
 
 namespace csgrt::cli {

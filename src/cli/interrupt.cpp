@@ -17,7 +17,7 @@ namespace {
 std::atomic<bool> stop{false};
 static_assert(std::atomic<bool>::is_always_lock_free);  // a signal handler may touch nothing else
 
-constexpr unsigned grace = 4;  ///< seconds: a driver, or a library that is loaded, may never come back
+constexpr unsigned grace = 4;  ///< seconds: a driver, or a library that is loaded, may never return
 
 void on_signal(int) {
     if (stop.exchange(true)) _exit(static_cast<int>(Status::interrupted));
@@ -39,16 +39,16 @@ void catch_interrupts() {
     struct sigaction action {};
     action.sa_handler = on_signal;
     sigemptyset(&action.sa_mask);
-    action.sa_flags = 0;  // no SA_RESTART: a read that waits for rays must come back
+    action.sa_flags = 0;  // no SA_RESTART: a read that waits for rays must return
     for (int signal : {SIGINT, SIGTERM, SIGHUP}) {
         struct sigaction before {};
         sigaction(signal, nullptr, &before);
         if (before.sa_handler != SIG_IGN) sigaction(signal, &action, nullptr);  // as in a script's background, or nohup
     }
     action.sa_handler = on_alarm;
-    action.sa_flags = SA_RESTART;  // a library goes on to load
+    action.sa_flags = SA_RESTART;  // a library goes on loading
     sigaction(SIGALRM, &action, nullptr);
-    try {  // a thread that a signal always reaches: others block them while a driver is loaded
+    try {  // a thread that a signal always reaches: others block signals while a driver is loaded
         std::thread([] {
             for (;;) pause();
         }).detach();

@@ -1,9 +1,9 @@
-// The command's write_image and read_image. They load csgrt::image when they are first called: OpenImageIO needs some
-// 260 libraries, which take a fifth of a second to load, and a command that writes no picture should not wait for them.
-// A command that will write a picture loads them on a thread.
+// Late image: the command's write_image and read_image. They load csgrt::image at their first call: OpenImageIO needs
+// some 260 libraries, which take a fifth of a second to load, and a command that writes no picture should not wait for
+// them. A command that will write a picture loads them on a thread.
 //
 // One dlopen of everything looks up each symbol in all libraries that it loads, and takes almost twice as long as one
-// dlopen for each of them, after those that it needs. So the build lists the libraries in that order
+// dlopen for each library, after those that it needs. So the build lists the libraries in that order
 // (cmake/openimageio.cmake).
 #include "late_image.hpp"
 
@@ -27,13 +27,13 @@ namespace csgrt {
 namespace {
 
 std::jthread loading;
-bool has_begun = false;  ///< to load
+bool has_begun = false;  ///< whether loading has begun
 
-/// Loads none into the global scope. Returns at the next library after a request to stop.
+/// Loads the libraries, none into the global scope. Returns at the next library after a request to stop.
 void load_one_by_one(const std::stop_token& stop) {
     std::istringstream names(CSGRT_PICTURE_LIBRARIES);
-    // NOW: a library that uses symbols of others than it names fails here, as one that is not found does. The dlopen of
-    // csgrt::image loads it, or reports it.
+    // RTLD_NOW: a library that uses symbols of libraries that it does not name fails here, as a missing library does.
+    // The dlopen of csgrt::image loads it, or reports it.
     for (std::string name; !stop.stop_requested() && names >> name;) dlopen(name.c_str(), RTLD_NOW | RTLD_LOCAL);
 }
 
@@ -70,8 +70,8 @@ namespace cli {
 ImageLoading::ImageLoading(const Command& command) {
     const auto* render = std::get_if<RenderArguments>(&command);
     if (!render || render->outputs.empty()) return;
-    // The driver of a named device may need other releases of libraries than the pictures do (Intel's needs a newer
-    // TBB), and the release that is loaded first is the one that both get. A native device needs no driver.
+    // A named device's driver may need other releases of libraries than the pictures do (Intel's needs a newer TBB),
+    // and both get the release that is loaded first. A native device needs no driver.
     const std::string& device = render->settings.device;
     if (!device.empty() && !device.starts_with("native")) return;
     try {
@@ -83,7 +83,7 @@ ImageLoading::ImageLoading(const Command& command) {
             }
         });
         has_begun = true;
-        if (render->repeat > 1) loading.join();  // or the first frames would be timed beside it
+        if (render->repeat > 1) loading.join();  // else the first frames would be timed beside it
     } catch (const std::system_error&) {         // no thread: functions() loads them
     }
 }

@@ -43,7 +43,7 @@ int fail(const Error& error) {
     return static_cast<int>(error.status());
 }
 
-/// Allocates nothing.
+/// Reports a lack of memory, without an allocation.
 int fail_without_memory() noexcept {
     constexpr std::string_view text =
         "csgrt: error: not enough memory: try a smaller --size, fewer objects, or --max-memory\n";
@@ -51,7 +51,7 @@ int fail_without_memory() noexcept {
     return static_cast<int>(Status::out_of_memory);
 }
 
-/// An allocation may fail where nobody may throw: in a destructor of the JSON library's, say.
+/// Ends the process after an allocation failed where nobody may throw, for example in a destructor of the JSON library.
 [[noreturn]] void on_terminate() {
     try {
         if (std::current_exception()) throw;
@@ -63,7 +63,7 @@ int fail_without_memory() noexcept {
 }
 
 /// Opens /dev/null, in the wrong direction, for each of the three standard files that is closed. Otherwise the next
-/// file that is opened would get its number, and would be read or written instead of it.
+/// file that is opened would get its number, and would be read or written in its place.
 void hold_standard_files() {
     for (int file : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
         if (fcntl(file, F_GETFD) < 0 && errno == EBADF)
@@ -112,8 +112,8 @@ Status run(const TextArguments& arguments) {
 }  // namespace csgrt::cli
 
 #ifdef __linux__
-/// Libraries call this one, since it is the program's. The system's calls a handler once, and PoCL's compiler has put
-/// its own before ours.
+/// Replaces abort() for all libraries, since it is the program's. The system's calls a handler once, and PoCL's
+/// compiler has put its own before csgrt's.
 extern "C" [[gnu::visibility("default")]] void abort() noexcept {
     csgrt::cli::on_abort(__builtin_return_address(0));
     for (;;) {

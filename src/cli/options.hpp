@@ -1,4 +1,4 @@
-// The options and arguments of a command: sets variables from a command line, and prints the help.
+// Options and arguments of a command: sets variables from a command line, and prints the help.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +23,7 @@ struct Option {
     std::string help;
     std::string expected;                            ///< "'x' is not ..."
     std::vector<std::string_view> words;             ///< values that are names; the nearest is suggested
-    std::function<bool(const std::string&)> accept;  ///< sets the target; false: the value is not what was expected
+    std::function<bool(const std::string&)> accept;  ///< sets the target; false: the value is not as expected
     bool repeatable = false, required = false, given = false;
     std::string excludes;  ///< name of another option
 };
@@ -45,7 +45,7 @@ public:
                    });
     }
 
-    /// May be given several times; `read` turns each text into an optional, whose value is appended.
+    /// An option that may be given several times; `read` turns each text into an optional, whose value is appended.
     template <class Target, class Parse>
     Option& each(std::string name, std::string type, std::string help, std::vector<Target>& target, Parse read,
                  std::string expected) {
@@ -59,7 +59,7 @@ public:
         return option;
     }
 
-    /// A number from `low` up to, but without, `high`.
+    /// An option with a number from `low` up to, but without, `high`.
     template <class Target>
     Option& number(std::string name, std::string type, std::string help, Target& target, double low, double high,
                    std::string expected) {
@@ -70,7 +70,7 @@ public:
         return value(std::move(name), std::move(type), std::move(help), target, read, std::move(expected));
     }
 
-    /// A whole number from `low` to `high`.
+    /// An option with a whole number from `low` to `high`.
     template <class Target>
     Option& count(std::string name, std::string help, Target& target, std::uint64_t low, std::uint64_t high) {
         auto read = [low, high](const std::string& text) {
@@ -82,7 +82,7 @@ public:
                      "a whole number from " + std::to_string(low) + " to " + std::to_string(high));
     }
 
-    /// One of the names of a table, pairs of name and value.
+    /// An option with one of the names of a table, pairs of name and value.
     template <class Target, class Names>
     Option& choice(std::string name, std::string help, Target& target, const Names& names) {
         std::string type;
@@ -95,12 +95,12 @@ public:
 
     Option& text(std::string name, std::string type, std::string help, std::string& target);
 
-    /// May be given several times; each value is appended.
+    /// An option that may be given several times; each value is appended.
     Option& list(std::string name, std::string type, std::string help, std::vector<std::string>& target);
 
     /// A required argument. Arguments have the order of these calls.
     void argument(std::string name, std::string help, std::string& target);
-    /// All arguments after those.
+    /// All arguments after the required ones.
     void arguments(std::string name, std::string help, std::vector<std::string>& target);
 
     /// Returns every finding; empty means that all targets are set. Words after "--" are arguments, however they begin.
@@ -124,7 +124,7 @@ private:
     void check_presence();
     void found(const std::string& where, std::string message, std::string suggestion = {});
 
-    std::list<Option> options_;  ///< a list: the references handed out stay valid
+    std::list<Option> options_;  ///< a list: references to its elements stay valid
     std::vector<Argument> arguments_;
     std::string rest_name_, rest_help_;
     std::vector<std::string>* rest_ = nullptr;

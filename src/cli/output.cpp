@@ -33,7 +33,7 @@ bool same_file(const std::string& a, const std::string& b) {
     return behind_links(a) == behind_links(b);
 }
 
-/// Why nothing can be written at `path`, or "".
+/// The reason why nothing can be written at `path`, or "".
 std::string obstacle(const std::string& name) {
     std::error_code error;
     const Target target = target_of(name);
@@ -72,7 +72,7 @@ void check_outputs(const std::vector<NamedFile>& outputs, const std::vector<Name
         };
         auto earlier = std::find_if(outputs.begin(), output, clash);
         auto input = std::find_if(inputs.begin(), inputs.end(), [&](const NamedFile& other) {
-            return other.path != "-" && clash(other);  // standard input is no output
+            return other.path != "-" && clash(other);  // standard input is not an output
         });
         std::string message;
         if (input != inputs.end())
@@ -117,7 +117,7 @@ void OutputFile::commit() {
 
 void OutputFile::fail() const {
     int code = errno;
-    check_interrupt();  // a signal may be why
+    check_interrupt();  // a signal may be the reason
     throw Error(Status::file, std::string("standard output: cannot write: ") +
                                   (code == EBADF ? "it is closed" : std::strerror(code)));
 }

@@ -1,4 +1,4 @@
-// Files that a command writes. They are checked before the work begins, and are written whole or not at all.
+// Output: files that a command writes. They are checked before the work begins, and are written whole or not at all.
 #pragma once
 
 #include <optional>
@@ -15,17 +15,17 @@ struct NamedFile {
     std::string option, path;
 };
 
-/// ".png", whichever case it has in the name.
+/// ".png": the extension of a name, in small letters.
 std::string extension_of(const std::string& path);
 
 /// Throws Error with every finding: usage, if an output is also an input or another output, or if standard output or
-/// standard input is named twice; file, if an output cannot be written at its place. "-" is standard output.
+/// standard input is named twice; file, if an output cannot be written at its path. "-" is standard output.
 void check_outputs(const std::vector<NamedFile>& outputs, const std::vector<NamedFile>& inputs);
 
 /// A text file that is written whole or not at all (NewFile). "-" is standard output.
 class OutputFile {
 public:
-    /// Throws Error (file), like the other functions.
+    /// Throws Error (file), as the other functions do.
     explicit OutputFile(const std::string& path);
 
     void write(std::string_view text);

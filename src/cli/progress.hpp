@@ -10,8 +10,8 @@
 
 namespace csgrt::cli {
 
-/// Shows the present stage, the fraction that is done and the time left, if the stage lasts longer than a second.
-/// Silent if standard error is no terminal. A thread redraws, so that a stage that never reports still shows its
+/// Shows the current stage, the fraction that is done and the time left, if the stage lasts longer than a second.
+/// Silent if standard error is not a terminal. A thread redraws, so that a stage that never reports still shows its
 /// elapsed time.
 class Progress {
 public:
@@ -41,10 +41,10 @@ private:
     double fraction_ = -1;  ///< negative: unknown
     Clock::time_point start_ = Clock::now();
     bool done_ = false;
-    JoinedThreads thread_;  ///< one, or none; joined before the rest goes
+    JoinedThreads thread_;  ///< one, or none; joined before the other members are destroyed
 };
 
-/// Standard error is a terminal that understands escape sequences.
+/// Whether standard error is a terminal that understands escape sequences.
 bool on_terminal();
 
 }  // namespace csgrt::cli

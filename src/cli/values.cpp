@@ -20,7 +20,7 @@ std::string_view without_blanks(std::string_view text) {
 
 constexpr std::pair<std::string_view, Axis> axis_names[] = {{"x", Axis::x}, {"y", Axis::y}, {"z", Axis::z}};
 
-/// What stands before the last colon and behind it.
+/// The parts before the last colon and behind it.
 std::optional<std::pair<std::string_view, std::string_view>> parts_of(std::string_view text) {
     const std::size_t colon = text.rfind(':');
     if (colon == text.npos) return std::nullopt;
@@ -124,7 +124,7 @@ std::optional<std::uint64_t> parse_memory(std::string_view text) {
         if (*count == 0 || *count > std::numeric_limits<std::uint64_t>::max() >> shift) return std::nullopt;
         return *count << shift;
     }
-    // A fraction of a unit, as 1.5G.
+    // A fraction of a unit is allowed, as in 1.5G.
     constexpr double most = 1e18;
     const auto fraction = text.find('.') != text.npos && shift > 0 ? parse_number(text) : std::nullopt;
     const double bytes = fraction ? std::ldexp(*fraction, shift) : 0;

@@ -16,37 +16,38 @@ namespace csgrt::cli {
 inline constexpr int max_side =
     32'768;  ///< pixels; a larger picture has more than a billion rays and is taken for a mistake
 
-/// A finite number, the whole of `text`; a leading plus is fine. See decimal.hpp.
+/// Reads a finite number, the whole of `text`; a leading plus is allowed. See decimal.hpp.
 std::optional<double> parse_number(std::string_view text);
 
-/// Why `text` is not such a number.
+/// The reason why `text` is not such a number.
 std::string number_fault(std::string_view text);
 
-/// "X,Y,Z": three finite numbers.
+/// Reads "X,Y,Z": three finite numbers.
 std::optional<Vec3> parse_vector(std::string_view text);
 
-/// A finite number, "inf" or "-inf".
+/// Reads a finite number, "inf" or "-inf".
 std::optional<double> parse_bound(std::string_view text);
 
-/// "z:2.5" or "1,0,1:2.5": a normal other than 0, and a distance.
+/// Reads "z:2.5" or "1,0,1:2.5": a normal other than 0, and a distance.
 std::optional<Plane> parse_plane(std::string_view text);
 
-/// "/all/x.r:1,0.5,0": a path and a colour.
+/// Reads "/all/x.r:1,0.5,0": a path and a colour.
 std::optional<Look> parse_look_color(std::string_view text);
 
-/// "x:512": an axis, and a number from 1 to max_side.
+/// Reads "x:512": an axis, and a number from 1 to max_side.
 std::optional<std::pair<Axis, int>> parse_grid(std::string_view text);
 
-/// A decimal whole number, the whole of `text`.
+/// Reads a decimal whole number, the whole of `text`.
 std::optional<std::uint64_t> parse_count(std::string_view text);
 
-/// "1024" or "1920x1080", each side from 1 to max_side; X, * and the sign of multiplication are fine, and blanks.
+/// Reads "1024" or "1920x1080", each side from 1 to max_side; X, * and the sign of multiplication are allowed, and
+/// blanks.
 std::optional<std::pair<int, int>> parse_size(std::string_view text);
 
-/// Bytes: a number, with K, M, G or T for powers of 1024, as "512M", "512 MiB" or "1.5gb"; at least 1.
+/// Reads bytes: a number, with K, M, G or T for powers of 1024, as "512M", "512 MiB" or "1.5gb"; at least 1.
 std::optional<std::uint64_t> parse_memory(std::string_view text);
 
-/// Whether the two are the same but for upper and lower case.
+/// Whether both words are the same except for upper and lower case.
 bool same_word(std::string_view a, std::string_view b);
 
 /// The value that `text` names in a table of pairs, in upper or lower case.

@@ -97,6 +97,9 @@ struct Appearance {
 
 class LateStatusTree;  // regions/status_tree.hpp
 
+/// A scene as the kernels and the reference read it: numbered solids in a hierarchy, regions as words and terms, and
+/// appearance. It never changes; copies share their tables. An edit that changes only colours makes a copy with another
+/// Appearance.
 struct CompiledScene : Space, Logic, Shapes, Appearance {
     std::shared_ptr<LateStatusTree> status_tree;  ///< made for the first deep ray
     std::uint64_t geometry_hash = 0;              ///< FNV-1a over everything except appearance
@@ -104,6 +107,7 @@ struct CompiledScene : Space, Logic, Shapes, Appearance {
     std::vector<Warning> warnings;  ///< see Model::warnings
 };
 
+/// The settings that have an effect on compilation.
 struct CompileOptions {
     bool air = false;                 ///< keep air regions
     bool skip_unsupported = false;    ///< solids of unknown types are empty sets

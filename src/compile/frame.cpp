@@ -144,8 +144,8 @@ dvec3 light_of_model(const Surroundings& model, const Axes& axes) {
     return eye + model.half * (axes.back - axes.right);
 }
 
-/// The same light with a perspective: by the eye, if the eye is near. The farther away the eye is, the nearer the light
-/// is to the orthographic view's, which a perspective of nearly 0 shows.
+/// The light for a view with a perspective: by the eye, if the eye is near. The farther away the eye is, the nearer the
+/// light is to the orthographic view's, which a perspective of nearly 0 shows.
 dvec3 light_by_eye(const Surroundings& model, const Axes& axes, dvec3 eye, double half) {
     const double near = standoff * model.half, distance = glm::dot(eye - model.center, axes.back);
     const dvec3 at = eye + half * (axes.back - axes.right);

@@ -7,6 +7,8 @@
 
 namespace csgrt {
 
+/// A frame in double precision, with its lights and the view's axes. Backends convert it to the precision of their
+/// kernels.
 struct PreparedFrame {
     kernel::Frame frame{};
     std::vector<kernel::LightRecord> lights;

@@ -11,6 +11,9 @@
 
 namespace csgrt {
 
+/// The kernels of one precision as the host sees them. Each precision (double, single, single in the world's
+/// coordinates, 113 bits) is one implementation, made of the same kernel sources. Devices use it to convert tables,
+/// frames and rays to bytes, and results back to double.
 class HostKernels {
 public:
     virtual ~HostKernels() = default;

@@ -30,6 +30,7 @@ struct alignas(64) PackedPlane {
 };
 static_assert(sizeof(PackedPlane) == 64);
 
+/// The packed solids of a chunk, before planes and surfaces that several solids share are found.
 struct PackedChunk {
     static constexpr std::size_t size = 1024;
 

@@ -42,6 +42,8 @@ void check_numbers(std::size_t count) {
 
 namespace {
 
+/// Packs the solids of a scene in steps: each solid by itself, then shared surfaces and planes, then the layout of all
+/// numbers. The steps run over chunks, several at once.
 class ScenePacker {
 public:
     ScenePacker(const Scene& scene, const FlatScene& flat, const Measured& measured, const Clipped& clipped,

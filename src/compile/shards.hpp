@@ -17,6 +17,8 @@
 
 namespace csgrt {
 
+/// A partition of items into shards, by the cells in which they are looked up. Items that may be equal are in one
+/// shard, so threads search different shards at the same time and find what one thread would find.
 class Shards {
 public:
     static constexpr std::uint32_t count = 4096;

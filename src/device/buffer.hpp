@@ -94,6 +94,7 @@ private:
     Memory memory_;
 };
 
+/// A buffer's contents in the host's memory, while it lives.
 class Buffer::Mapping {
 public:
     Mapping(const Device& device, cl_mem memory, void* data)

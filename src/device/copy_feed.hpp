@@ -18,6 +18,8 @@
 
 namespace csgrt {
 
+/// A queue of copies with a thread that makes them. Kernels of other queues run meanwhile, and small reads wait for few
+/// chunks.
 class CopyFeed {
 public:
     /// A rectangle of a picture: floats in several channels, of each channel some lines, one beneath the other. A line

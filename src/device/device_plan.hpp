@@ -10,6 +10,7 @@
 
 namespace csgrt {
 
+/// The devices of a Renderer: those that draw at once, and those that take over later.
 struct DevicePlan {
     std::vector<FoundDevice> first;  ///< draw from the first call on; empty: there is none, and the reference draws
     /// Finds the devices that take over once their kernels are compiled; none: `first` stay. It may load drivers, so a

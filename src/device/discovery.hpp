@@ -10,12 +10,14 @@
 
 namespace csgrt {
 
+/// A device and the table of functions that drives it.
 struct FoundDevice {
     const OpenCl* cl;
     cl_device_id id;
     DeviceInfo info;
 };
 
+/// The devices of this machine, and the faults of drivers that were found on the way.
 struct Discovery {
     std::vector<FoundDevice> devices;  ///< in the order of their numbers
     std::vector<std::string> notes;    ///< on drivers that cannot be used, a sentence each

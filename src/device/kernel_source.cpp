@@ -57,6 +57,7 @@ std::string guard_of(const std::string& name) {
     return guard;
 }
 
+/// Assembles one program's text, including each file once.
 class Assembly {
 public:
     void add(const std::string& name, const std::string& wanted_by) {

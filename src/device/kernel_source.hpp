@@ -8,6 +8,7 @@
 
 namespace csgrt {
 
+/// A file of kernels/, embedded in the library.
 struct KernelFile {
     const char* name;  ///< under kernels/, with forward slashes: "shared/base.h"
     const char* text;

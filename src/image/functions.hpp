@@ -7,6 +7,7 @@
 
 namespace csgrt {
 
+/// The addresses of the functions of image.hpp.
 struct ImageFunctions {
     void (*write)(const Image& image, const std::string& path, const std::string& format,
                   const std::function<bool(double)>& progress);

@@ -13,6 +13,7 @@ namespace csgrt::native {
 /// Runs work-items [first, end). An argument is 64 bits: the address of memory, or a value of at most so many bits.
 using Entry = void (*)(std::size_t first, std::size_t end, const std::uint64_t* arguments);
 
+/// A kernel of a program: its entry point, and the sizes of its arguments.
 struct CompiledKernel {
     const char* name;
     Entry run;
@@ -33,6 +34,8 @@ struct Program {
 void run_here(const CompiledKernel& kernel, std::size_t items, const std::uint64_t* arguments,
               const std::atomic<bool>* stop);
 
+/// A level of instructions, and the programs that are compiled for it. A processor that can run the level can run all
+/// of them.
 struct Level {
     const char* name;  ///< its name in compilers: x86-64-v4
     std::span<const Program> programs;

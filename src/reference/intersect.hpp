@@ -9,6 +9,7 @@
 
 namespace csgrt {
 
+/// An interval of a ray inside one solid, with the normals at both boundaries.
 struct SolidSegment {
     double in = 0, out = 0;      ///< may be infinite
     Vec3 in_normal, out_normal;  ///< unit, outward from the solid

@@ -31,6 +31,7 @@ inline quad root(quad x) {
 
 /// The parts of a number: magnitude 2^exponent, where the magnitude has 113 bits.
 __extension__ typedef unsigned __int128 Bits;
+/// A number taken apart, for exact products and sums.
 struct QuadParts {
     Bits magnitude;
     int exponent;

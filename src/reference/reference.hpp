@@ -13,10 +13,13 @@
 
 namespace csgrt {
 
+/// Counts of a call, as Statistics has them.
 struct ReferenceCounts {
     std::uint64_t ends = 0, segments = 0, partitions = 0, overlaps = 0;
 };
 
+/// The judge of the pipeline: it finds the same partitions in another way. It shares the geometry with the kernels, and
+/// nothing of their walk, weave and evaluation.
 class Reference {
 public:
     /// Refers to both, which must outlive it.
@@ -26,7 +29,7 @@ public:
     /// `watch`, which may be null, says so.
     std::vector<kernel::Pixel> render(const PreparedFrame& prepared, Watch* watch, ReferenceCounts& counts,
                                       const std::vector<std::uint32_t>* some = nullptr) const;
-    /// Traces every ray of a list, and puts the rows into the sink.
+    /// Traces every ray of a list, and puts the rows into the receiver.
     void trace(const kernel::Frame& frame, const RayList& rays, RowReceiver& receiver, Watch* watch,
                ReferenceCounts& counts) const;
 

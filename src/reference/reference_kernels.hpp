@@ -14,6 +14,7 @@
 
 namespace csgrt {
 
+/// The kernels' functions that the reference calls, behind one interface for all precisions.
 class ReferenceKernels : public HostKernels {
 public:
     /// The ray of a pixel. In 113 bits it is the one in double, so that the two see the same rays.

@@ -14,6 +14,7 @@
 
 namespace csgrt {
 
+/// A partition of a ray before evaluation: its boundaries, and the segments that cover it.
 struct WovenPartition {
     double in = 0, out = 0;
     std::uint32_t in_boundary = 0, out_boundary = 0;  ///< indices of boundaries: 2 x segment + side

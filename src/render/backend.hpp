@@ -48,7 +48,7 @@ public:
     /// Waits until a device has the kernels for such calls. Called before each call of render() or trace().
     virtual void prepare(bool every_partition) = 0;
     virtual void render(const PreparedFrame& frame, const FrameMemory& memory, Watch& watch) = 0;
-    /// Puts the rows of every ray into the sink.
+    /// Puts the rows of every ray into the receiver.
     virtual void trace(const kernel::Frame& frame, const RayList& rays, RowReceiver& receiver, Watch& watch) = 0;
     /// Checks before the call ends that the rows are those of the reference. See SpotCheck.
     virtual void check(const kernel::Frame&, const RayList&, const RowReceiver&, Watch&) {}

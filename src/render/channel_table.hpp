@@ -9,6 +9,7 @@
 
 namespace csgrt {
 
+/// A channel of pictures: its name, its group, and its value in a pixel of the reference.
 struct ChannelSource {
     const char* name;     ///< in the image
     std::uint32_t group;  ///< channel::..., which users choose

@@ -9,6 +9,8 @@
 
 namespace csgrt {
 
+/// Draws and shoots on a group of devices. While a GPU's kernels are compiled, a native device answers; a call after
+/// that uses the GPU.
 class DeviceBackend final : public Backend {
 public:
     /// Sets up the plan's devices. `search_ms`: the time that finding them took. The settings must outlive the backend.

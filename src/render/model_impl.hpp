@@ -59,6 +59,8 @@ struct ModelSource {
     }
 };
 
+/// The scene, its compiled forms, and the tracers of the caller's thread. If pictures do not show some regions, there
+/// are two more compiled forms, in which only the shown regions or only the ghosts claim; they share nearly all tables.
 struct Model::Impl {
     ModelSource source;
     CompiledScene scene;  ///< all its regions claim

@@ -6,6 +6,7 @@
 
 namespace csgrt {
 
+/// Draws and shoots by the CPU reference, for comparison and where there is no device.
 class ReferenceBackend final : public Backend {
 public:
     explicit ReferenceBackend(std::shared_ptr<const ModelInUse> model) { set_model(std::move(model)); }

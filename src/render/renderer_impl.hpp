@@ -18,6 +18,8 @@
 
 namespace csgrt {
 
+/// The backend, the model of the current call, and the statistics. Each call takes the model that was set last,
+/// prepares the backend for it, and runs under a Watch.
 struct Renderer::Impl {
     const unsigned process = process_number();  ///< where it works: its threads, and drivers' data, exist only there
     Settings settings;

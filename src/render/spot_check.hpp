@@ -11,6 +11,7 @@
 
 namespace csgrt {
 
+/// Compares batches with the reference. A difference of one bit fails the call (Settings::check).
 class SpotCheck {
 public:
     /// Checks the first batch, and every n-th after it, n being Settings::check; none if it is 0. The settings must

@@ -15,6 +15,7 @@ struct Cost {
     std::uint64_t more = 0;   ///< grows faster
 };
 
+/// The cost of a solid by its type, as a visitor of Shape.
 struct CostOf {
     static constexpr std::uint64_t many = 64;  ///< triangles or cells: an instance has a box around them
 

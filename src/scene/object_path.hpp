@@ -12,6 +12,7 @@
 
 namespace csgrt {
 
+/// The objects on the way from a top object to a named one.
 struct ObjectPath {
     struct Step {
         std::uint32_t object;

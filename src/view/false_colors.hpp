@@ -1,4 +1,4 @@
-// Pictures of what is no colour, and the outlines of ghosts.
+// False colours: pictures of values other than colours, and the outlines of ghosts.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@ namespace csgrt {
 /// The channels (View::channels) that paint() needs.
 std::uint32_t channels_for(Show show, bool has_ghosts);
 
-/// Pixels as a display has them: R G B A, a byte each from the lowest one on. `pixels` has one value for each of the
+/// Paints pixels for a display: R G B A, a byte each from the lowest byte on. `pixels` has one value for each of the
 /// picture's.
 void paint(const Image& image, Show show, std::span<std::uint32_t> pixels);
 

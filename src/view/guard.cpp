@@ -12,13 +12,13 @@ bool is_loopback(std::string_view address) {
     return address == "127.0.0.1" || address == "::1" || address == "localhost";
 }
 
-/// An IP address: a name could be anybody's.
+/// Is the host an IP address? A name could be anybody's.
 bool is_number(std::string_view host) {
     const bool is_v6 = host.find(':') != host.npos;
     return !host.empty() && host.find_first_not_of(is_v6 ? "0123456789abcdefABCDEF:." : "0123456789.") == host.npos;
 }
 
-/// "127.0.0.1:8000" or "[::1]:8000" without the port and the brackets; empty if it is neither.
+/// The host of "127.0.0.1:8000" or "[::1]:8000", without the port and the brackets; empty for other texts.
 std::string_view without_port(std::string_view host) {
     std::string_view name = host, rest;
     if (host.starts_with('[')) {

@@ -24,10 +24,11 @@ namespace {
 
 constexpr std::size_t places = 512, most_threads = 64;
 constexpr std::size_t most_bytes_of_bodies = 8 * most_body_bytes;  // JSON of a page takes up to 40 times as much
-constexpr std::size_t piece = 262'144;                             // of an answer, before the next look at the server
+constexpr std::size_t piece = 262'144;                             // of an answer, before the next check whether the
+                                                                   // server ends
 constexpr std::chrono::milliseconds tick{50};
-/// What a client may take: for a head, for a body, without a request, without taking a byte of its answer, to notice
-/// that it was refused.
+/// The times that a client may take: for a head, for a body, without a request, without taking a byte of its answer,
+/// and to notice that it was refused.
 constexpr std::chrono::seconds for_head{5}, for_body{30}, without_request{60}, without_taking{10}, to_notice{2};
 
 const char* sentence_of(int status) {
@@ -84,7 +85,7 @@ int port_of(int socket) {
                                             : reinterpret_cast<const sockaddr_in&>(name).sin_port);
 }
 
-/// This machine's address for who is at another one; no packet is sent.
+/// This machine's address as the machine `other` sees it; no packet is sent.
 std::string own_address(const char* other, const char* otherwise) {
     const Addresses to = addresses_of(other, 9, SOCK_DGRAM, AI_NUMERICHOST);
     if (!to) return otherwise;
@@ -102,7 +103,7 @@ std::string own_address(const char* other, const char* otherwise) {
 }  // namespace
 
 std::string reachable_address(const std::string& address) {
-    // Addresses that are kept for documents: what leads there leads to other machines.
+    // The addresses are reserved for documents: the route to them leads to other machines.
     if (address == "0.0.0.0") return own_address("192.0.2.1", "127.0.0.1");
     if (address == "::") return own_address("2001:db8::1", "::1");
     return address;
@@ -146,7 +147,7 @@ void Exchange::write(std::string_view bytes) {
     const std::uint64_t at_start = left_;
     auto last = std::chrono::steady_clock::now();
     while (is_good_ && !bytes.empty()) {
-        // What is short goes whole when the server ends: a frame tells that it was cancelled.
+        // A short answer is sent whole when the server ends: a frame's answer says that it was cancelled.
         if (stopping_ && at_start > piece) break;
         const ssize_t count = send(socket_, bytes.data(), std::min(bytes.size(), piece), MSG_NOSIGNAL | MSG_DONTWAIT);
         if (count > 0) {
@@ -182,7 +183,7 @@ void Server::work() {
 void Server::submit(std::function<void()> work) {
     const std::lock_guard lock(mutex_);
     work_.push_back(std::move(work));
-    // Where there is no other thread to be had, those that there are come to it.
+    // If no other thread is available, the existing threads do the work.
     if (idle_ < work_.size() && threads_->size() < most_threads) threads_->add([this] { this->work(); });
     has_work_.notify_one();
 }
@@ -297,7 +298,8 @@ void Server::close_over() {
     });
 }
 
-/// Closes the slowest of those who were not admitted, else who was silent for longest. False: all are being answered.
+/// Closes the slowest connection that was not admitted, else the one that was silent for longest. False: all are being
+/// answered.
 bool Server::take_place() {
     const auto is_better = [](const Connection& a, const Connection& b) {
         return std::pair(a.is_admitted, a.deadline) < std::pair(b.is_admitted, b.deadline);
@@ -340,7 +342,7 @@ void Server::receive(Connection& connection) {
         connection.is_over = count == 0 || !again();
         return;
     }
-    if (connection.phase == Phase::refused) return;  // or the client would lose what it was told
+    if (connection.phase == Phase::refused) return;  // else the client would lose the answer
     if (connection.phase == Phase::head && connection.bytes.empty())
         connection.deadline = std::min(connection.deadline, Clock::now() + for_head);
     advance(connection, {chunk.data(), static_cast<std::size_t>(count)});
@@ -387,7 +389,7 @@ void Server::advance(Connection& connection, std::string_view more) try {
     connection.is_over = true;
 }
 
-/// The answer, then nothing more; what comes is thrown away until the client has seen it.
+/// Sends the answer and nothing more; further bytes are discarded until the client has seen it.
 void Server::refuse(Connection& connection, int status) {
     const std::string why = std::string(R"({"error":")") + sentence_of(status) + "\"}",
                       text = head_of(status, json_type, why.size(), true) + why;

@@ -1,6 +1,6 @@
-// A server of HTTP/1.1 for few who may ask and any number who may not. One thread reads all requests; others answer
-// those that were admitted. A client takes no thread while it sends, or is silent. Nothing is kept of it beyond
-// most_head_bytes before it is admitted.
+// Server of HTTP/1.1 for few admitted clients and any number of others. One thread reads all requests; other threads
+// answer those that were admitted. A client takes no thread while it sends, or is silent. Before it is admitted, at
+// most most_head_bytes of it are kept.
 #pragma once
 
 #include <atomic>
@@ -40,7 +40,7 @@ private:
     int number_;
 };
 
-/// A request, and its answer. Of the thread that answers it.
+/// A request, and its answer. It belongs to the thread that answers it.
 class Exchange {
 public:
     const RequestHead& head;
@@ -48,7 +48,7 @@ public:
 
     /// False: the client is gone, or the server ends.
     bool is_wanted() const;
-    /// Sends all of an answer but for the last `later` bytes, which write() sends. The first one alone is sent.
+    /// Sends all of an answer except the last `later` bytes, which write() sends. Only the first answer is sent.
     void answer(int status, const char* type, std::initializer_list<std::string_view> parts, std::uint64_t later = 0);
     void write(std::string_view bytes);
 
@@ -61,11 +61,11 @@ private:
 
     const int socket_;
     const std::atomic<bool>& stopping_;
-    std::uint64_t left_ = 0;  ///< bytes of the answer that were not sent
+    std::uint64_t left_ = 0;  ///< bytes of the answer that are not sent yet
     bool has_begun_ = false, is_good_ = true;
 };
 
-/// Where others reach this machine, if `address` means all of its addresses; else that.
+/// The address by which others reach this machine, if `address` means all of its addresses; else `address`.
 std::string reachable_address(const std::string& address);
 
 class Server {
@@ -74,18 +74,18 @@ public:
     using Refusal = std::function<int(const Asker&)>;
     using Answer = std::function<void(Exchange&)>;
 
-    /// Listens from now on; port 0 is any that is free. Throws Error (file) if it cannot, or gets no thread.
+    /// Starts to listen; port 0 is any free port. Throws Error (file) if it cannot, or gets no thread.
     Server(const std::string& address, int port, Refusal refusal, Answer answer);
     ~Server();
     Server(const Server&) = delete;
     Server& operator=(const Server&) = delete;
 
     int port() const { return port_; }
-    /// Until stop() is called or `go_on`, which is called twenty times a second or more, returns false. Once.
+    /// Serves until stop() is called or `go_on`, which is called twenty times a second or more, returns false. Once.
     void run(const std::function<bool()>& go_on);
-    /// Any thread.
+    /// Ends run(). Any thread.
     void stop();
-    /// Another thread does it. Only of the thread that is in run().
+    /// Has another thread do the work. Only the thread in run() may call it.
     void submit(std::function<void()> work);
 
 private:
@@ -95,9 +95,9 @@ private:
         Handle socket;
         Clock::time_point deadline = {};
         Phase phase = Phase::head;
-        bool is_admitted = false;  ///< a request of it was
+        bool is_admitted = false;  ///< a request of it was admitted
         RequestHead head = {};
-        std::string bytes = {};  ///< that have come
+        std::string bytes = {};  ///< that have arrived
         bool is_over = false;
     };
 
@@ -118,7 +118,7 @@ private:
     Handle listener_, wake_;
     int port_ = 0;
     std::list<Connection> connections_ = {};
-    std::size_t body_bytes_ = 0;  ///< of the bodies that come, or are answered
+    std::size_t body_bytes_ = 0;  ///< of the bodies that arrive, or are answered
     bool accepts_ = true;
     std::atomic<bool> stopping_{false};
 

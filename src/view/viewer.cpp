@@ -24,7 +24,7 @@ namespace csgrt {
 
 namespace {
 
-constexpr std::chrono::milliseconds look{250};  ///< between two looks at the file
+constexpr std::chrono::milliseconds look{250};  ///< between two checks of the file
 
 void answer_json(Exchange& exchange, const Json& json, int status = http::good) {
     exchange.answer(status, json_type, {json.dump(-1, ' ', false, Json::error_handler_t::replace)});
@@ -35,7 +35,7 @@ void answer_json(Exchange& exchange, const Json& json, int status = http::good) 
 struct Viewer::Impl {
     using Clock = std::chrono::steady_clock;
 
-    /// What a file is, and which version of it; of one that is not there the error.
+    /// The identity of a file and of its version; for a missing file the error.
     struct Stamp {
         int error = 0;
         mode_t kind = 0;
@@ -45,7 +45,7 @@ struct Viewer::Impl {
         std::pair<std::int64_t, std::int64_t> written = {}, changed = {};
         bool operator==(const Stamp&) const = default;
         bool is_file() const { return error == 0 && S_ISREG(kind); }
-        /// Why it cannot be loaded.
+        /// The reason why the file cannot be loaded.
         std::string fault() const {
             if (error == ENOENT) return "is not there any more";
             if (error != 0) return std::strerror(error);
@@ -69,7 +69,7 @@ struct Viewer::Impl {
     const Guard guard;
     Studio studio;
     std::map<std::string, std::function<void(const Request&, Exchange&)>, std::less<>> answers = {};
-    Stamp loaded, seen;  ///< of the file: when the model was read, and at the last look
+    Stamp loaded, seen;  ///< of the file: when the model was read, and at the last check
     Clock::time_point next_look = {};
     std::atomic<bool> is_loading{false};
     Server server;
@@ -117,7 +117,7 @@ struct Viewer::Impl {
         send_by("exr", &Studio::exr);
     }
 
-    /// A request that the guard has let in.
+    /// Answers a request that the guard has admitted.
     void answer(Exchange& exchange) const {
         constexpr std::string_view folder = "api/";
         const std::string_view name = std::string_view(exchange.head.path).substr(guard.root().size());
@@ -140,7 +140,7 @@ struct Viewer::Impl {
         if (is_loading || Clock::now() < next_look) return;
         next_look = Clock::now() + look;
         const Stamp now = stamp_of(options.file);
-        if (now != std::exchange(seen, now) || now == loaded) return;  // it is being written, or is as it was
+        if (now != std::exchange(seen, now) || now == loaded) return;  // the file is being written, or has not changed
         loaded = now;
         if (!now.is_file())
             return studio.set_error(options.file + " " + now.fault() + ": the page shows the model as it was");

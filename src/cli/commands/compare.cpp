@@ -1,4 +1,4 @@
-// csgrt compare: two pictures or two files of partitions. Their first bytes tell which.
+// csgrt compare: compares two pictures or two files of partitions. Their first bytes give their kind.
 #include "compare.hpp"
 
 #include <cerrno>

@@ -1,4 +1,4 @@
-// Differences between two files of one kind. Both functions print a report and return Status::ok or Status::differs.
+// Comparison of two files of one kind. Both functions print a report and return Status::ok or Status::differs.
 #pragma once
 
 #include "commands.hpp"

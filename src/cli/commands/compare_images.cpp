@@ -17,12 +17,12 @@ namespace csgrt::cli {
 namespace {
 
 struct ChannelDifference {
-    std::size_t pixels = 0;    ///< that differ
-    double largest = -1;       ///< infinite where only one of the two is a finite number
-    std::size_t position = 0;  ///< of the largest
+    std::size_t pixels = 0;    ///< number of different pixels
+    double largest = -1;       ///< infinite if only one of the two is a finite number
+    std::size_t position = 0;  ///< of the largest difference
 };
 
-/// A channel's values, and what they mean.
+/// A channel's values, and their meaning.
 struct Values {
     const Image& image;
     std::size_t channel;
@@ -55,7 +55,7 @@ std::string shape(const Image& image) {
     return std::to_string(image.width) + "x" + std::to_string(image.height) + " pixels";
 }
 
-/// A line for each channel that only `a` has.
+/// Lines for the channels that only `a` has.
 std::string missing(const Image& a, const Image& b, const std::string& path) {
     std::string text;
     for (const std::string& name : a.names)

@@ -17,7 +17,7 @@ struct Tally {
     std::uint64_t rays = 0, worst_ray = 0;
     double worst = -1;
 
-    /// `apart` is the ray's largest difference; 0 or less if it has none.
+    /// Adds a ray. `apart`: the ray's largest difference; 0 or less if it has none.
     void add(std::uint64_t ray, double apart) {
         if (!(apart > 0)) return;
         ++rays;
@@ -28,8 +28,8 @@ struct Tally {
     }
 };
 
-/// How far two numbers are apart: 0 if they are the same bits; more than 0 otherwise, even where only the sign of a
-/// zero differs.
+/// The distance of two numbers: 0 if they are the same bits; more than 0 otherwise, even if only the sign of a zero
+/// differs.
 double apart(double a, double b) {
     if (std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b)) return 0;
     double difference = std::abs(a - b);

@@ -1,4 +1,4 @@
-// csgrt devices: the devices that --device can choose.
+// csgrt devices: lists the devices that --device can choose.
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
@@ -29,9 +29,10 @@ std::string gibibytes(std::uint64_t bytes) {
     return text;
 }
 
-/// A driver may end the process that loads it: so a child loads it first.
+/// Can drivers be loaded? A driver may end the process that loads it, so a child loads it first.
 bool can_load_drivers() {
-#ifdef CSGRT_HAS_OWN_HANDLERS  // a sanitizer, whose child may wait for ever for a lock of a thread that it has not
+#ifdef CSGRT_HAS_OWN_HANDLERS  // a sanitizer, whose child may wait for ever for a lock of a thread that does not exist
+                               // in it
     return true;
 #endif
     const pid_t child = fork();
@@ -42,7 +43,7 @@ bool can_load_drivers() {
         for (const int signal : {SIGABRT, SIGBUS, SIGSEGV}) std::signal(signal, SIG_DFL);
         try {
             static_cast<void>(devices());
-        } catch (const std::exception&) {  // the parent has the same, and says so
+        } catch (const std::exception&) {  // the parent has the same fault, and reports it
         }
         _exit(0);
     }

@@ -1,4 +1,4 @@
-// csgrt sample: which region holds each of given points, or each pixel of a plane.
+// csgrt sample: finds the region that holds each of given points, or each pixel of a plane.
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -23,7 +23,7 @@ namespace csgrt::cli {
 namespace {
 
 constexpr std::size_t most_points = 1'000'000;        ///< at once
-constexpr std::size_t most_sampled_text = 1'000'000;  ///< bytes at once, more or less
+constexpr std::size_t most_sampled_text = 1'000'000;  ///< bytes at once, approximately
 constexpr const char* sample_type = "'<i4'";
 
 void check(const SampleArguments& arguments) {
@@ -45,7 +45,7 @@ void check(const SampleArguments& arguments) {
     check_outputs({{"--output", arguments.output}}, inputs);
 }
 
-/// ",ID,PATH" and a line break; of no region, and of several, no path.
+/// Appends ",ID,PATH" and a line break; no path if there is no region, or there are several.
 void append_region(std::string& text, std::int32_t id, const Model& model) {
     text += ',' + std::to_string(id) + ',';
     if (id >= 0) append_field(text, model.regions()[static_cast<std::size_t>(id)].path);
@@ -102,7 +102,7 @@ void write_pixels(const Slice& slice, const Array<std::int32_t>& ids, bool is_np
 }
 
 #ifdef CSGRT_HAVE_IMAGE
-/// Regions in their colours, overlaps red, nothing transparent.
+/// A picture of the regions in their colours; overlaps are red, and nothing is transparent.
 Image picture_of(const Slice& slice, const Array<std::int32_t>& ids, const Model& model) {
     constexpr float nothing[] = {0, 0, 0, 0};
     Image image;

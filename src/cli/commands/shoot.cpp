@@ -1,4 +1,4 @@
-// csgrt shoot: the partitions along given rays, in chunks, so that any number of rays fits into memory.
+// csgrt shoot: computes the partitions along given rays, in chunks, so that any number of rays fits into memory.
 #include <algorithm>
 #include <limits>
 #include <optional>
@@ -22,8 +22,8 @@ namespace csgrt::cli {
 namespace {
 
 constexpr std::size_t most_rays = 65'536;        ///< in a chunk; enough to fill a device
-constexpr std::size_t most_text = 64'000'000;    ///< bytes of a chunk's answers, more or less
-constexpr std::size_t most_written = 1'000'000;  ///< bytes of a table at once, more or less
+constexpr std::size_t most_text = 64'000'000;    ///< bytes of a chunk's answers, approximately
+constexpr std::size_t most_written = 1'000'000;  ///< bytes of a table at once, approximately
 constexpr std::uint64_t most_of_grid = 262'144;  ///< rays of a grid at once
 constexpr double endless = std::numeric_limits<double>::infinity();
 
@@ -34,7 +34,7 @@ public:
     explicit RaySource(const ShootArguments& arguments) {
         if (!arguments.grid) reader_.emplace(arguments.rays);
     }
-    /// Makes the grid, if it is one.
+    /// Makes the grid, if the rays are one.
     void cover(const Box& box, const ShootArguments& arguments) {
         if (!arguments.grid) return;
         if (!(box.low.x <= box.high.x))
@@ -42,7 +42,7 @@ public:
         const auto [axis, side] = *arguments.grid;
         grid_ = rays_parallel(box, axis, side, side);
     }
-    /// Null: a file.
+    /// The grid; null for a file.
     const RayGrid* grid() const { return grid_ ? &*grid_ : nullptr; }
     Ray ray_of_grid(std::uint64_t number) const {
         const auto columns = static_cast<std::uint64_t>(grid_->columns);
@@ -55,7 +55,7 @@ public:
         for (; rays.size() < limit && next_ < grid_->size(); ++next_) rays.push_back(ray_of_grid(next_));
         return !rays.empty();
     }
-    /// Back to the first ray.
+    /// Goes back to the first ray.
     void rewind() {
         if (reader_) reader_->rewind();
         next_ = 0;
@@ -67,7 +67,7 @@ private:
     std::uint64_t next_ = 0;
 };
 
-/// What the parts of the work share.
+/// The data that the parts of the work share.
 struct Shooting {
     const ShootArguments& arguments;
     RaySource& source;
@@ -159,7 +159,7 @@ void for_rows(Shooting& work, Fields fields, const Take& take) {
     for_chunks_of_rays(work, [&](const std::vector<Ray>& rays, std::uint64_t first) {
         work.renderer.partitions(rays, rows, fields, ranges);
         take(rows, first, [&](std::size_t i) { return rays[i]; });
-        constexpr std::size_t bytes_of_row = 100;  // more or less
+        constexpr std::size_t bytes_of_row = 100;  // approximately
         return rows.region_ids.size() * bytes_of_row;
     });
 }
@@ -167,7 +167,7 @@ void for_rows(Shooting& work, Fields fields, const Take& take) {
 void write_table(Shooting& work) {
     const RowTable table(work.renderer.model(), work.arguments.format);
     std::uint64_t count = 0, written = 0;
-    if (work.arguments.format == RowFormat::npy) {  // which begins with the number of rows; a pipe does not go back
+    if (work.arguments.format == RowFormat::npy) {  // the file begins with the number of rows; a pipe does not go back
         work.progress.stage("counting");
         for_rows(work, {},
                  [&](const Partitions& rows, std::uint64_t, const auto&) { count += rows.region_ids.size(); });

@@ -1,4 +1,4 @@
-// csgrt view: a page that shows a scene, until it is interrupted.
+// csgrt view: serves a page that shows a scene, until it is interrupted.
 #include <poll.h>
 #include <spawn.h>
 #include <sys/wait.h>
@@ -28,7 +28,7 @@ namespace {
 #ifdef CSGRT_HAVE_VIEW
 void warn(const char* what) { std::fprintf(stderr, "csgrt: warning: %s\n", what); }
 
-/// The desktop's browser, and the file that it opens first: every user can read the arguments of a process, and the
+/// Opens the desktop's browser by a file with the address: every user can read the arguments of a process, and the
 /// address has a secret.
 class Browser {
 public:
@@ -42,7 +42,7 @@ public:
             warn("there is no xdg-open to open a browser with: open the address yourself");
         }
     }
-    /// Lets the program end that opens the browser. Some go on for as long as the browser does.
+    /// Reaps the program that opens the browser. Some of these run as long as the browser does.
     void reap() {
         int status = 0;
         if (process_ == 0 || waitpid(process_, &status, WNOHANG) == 0) return;
@@ -55,7 +55,7 @@ private:
     pid_t process_ = 0;
 };
 
-/// Whether nobody is left who could read what this process prints.
+/// Whether no process is left that could read this process's output.
 bool is_output_closed() {
     pollfd output{STDOUT_FILENO, 0, 0};
     return poll(&output, 1, 0) > 0 && (output.revents & POLLERR) != 0;
@@ -83,7 +83,7 @@ Status run(const ViewArguments& arguments) {
     options.port = arguments.port;
     const bool is_input = arguments.scene == "-";
     options.name = is_input ? "standard input" : std::filesystem::path(arguments.scene).filename().string();
-    Settings in_double = arguments.settings;  // as rays are shot; pictures have their precision besides
+    Settings in_double = arguments.settings;  // rays are traced in double; pictures have their own precision
     in_double.precision = Precision::double_;
     options.command = model_words(is_input ? "SCENE" : arguments.scene, arguments.objects, arguments.load, in_double);
     if (!is_input) {
@@ -108,7 +108,7 @@ Status run(const ViewArguments& arguments) {
     }
     viewer.run([&] {
         if (browser) browser->reap();
-        // A program that gave its scene by a pipe has ended, and has not closed its page.
+        // A program that gave its scene through a pipe has ended, without closing its page.
         return !interrupted() && !(is_input && is_output_closed());
     });
     check_interrupt();

@@ -1,4 +1,4 @@
-// Reads a text file line by line, with findings that name a place in it.
+// Lines: reads a text file line by line, with findings that name a place in it.
 #pragma once
 
 #include <cstdint>
@@ -28,13 +28,13 @@ public:
 
     /// The next line without its line break; false at the end. The view is valid until the next call.
     bool next(std::string_view& line);
-    /// Back to the first line. Only with Passes::several.
+    /// Goes back to the first line. Only with Passes::several.
     void rewind();
 
     const std::string& name() const { return name_; }
     int line_number() const { return line_number_; }
 
-    /// A finding at a column of the present line, in bytes from 1, with the line as its excerpt.
+    /// A finding at a column of the current line, in bytes from 1, with the line as its excerpt.
     Diagnostic finding(int column, std::string message, std::string suggestion = {}) const;
 
 private:

@@ -45,7 +45,7 @@ void append_name(std::string& out, std::string_view name) {
             for (int shift : {6, 3, 0}) out += static_cast<char>('0' + (byte >> shift & 7));
         }
     }
-    if (name.empty()) out += '-';  // no name is still a word
+    if (name.empty()) out += '-';  // an empty name is still a word
 }
 
 PartitionWriter::PartitionWriter(const Model& model) {
@@ -82,7 +82,7 @@ void PartitionReader::fail(int column, const std::string& message, const char* f
     throw Error(Status::file, {lines_.finding(column, message, form)});
 }
 
-/// The next line that is no comment, of at least `least` words.
+/// Reads the next line that is not a comment, of at least `least` words.
 void PartitionReader::next_words(std::size_t least, const char* form) {
     std::string_view line;
     do {

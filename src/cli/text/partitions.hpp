@@ -1,4 +1,4 @@
-// The text form of partitions: for each ray a line "ray INDEX PARTITIONS OVERLAPS", then a line a partition,
+// Partitions as text: for each ray a line "ray INDEX PARTITIONS OVERLAPS", then a line a partition,
 //
 //     region in out inx iny inz outx outy outz in-solid out-solid in-type out-type
 //
@@ -24,12 +24,12 @@ class PartitionWriter {
 public:
     explicit PartitionWriter(const Model& model);
 
-    /// Appends the lines of one ray to `out`. A solid that is none of the model's, where a range cuts a partition, and
-    /// its type are -.
+    /// Appends the lines of one ray to `out`. If a range cuts a partition, the solid there is none of the model's: it
+    /// and its type are -.
     void append(std::string& out, std::uint64_t ray, const RayPartitions& partitions) const;
 
 private:
-    std::vector<std::string> regions_, solids_, types_;  ///< of no solid the last
+    std::vector<std::string> regions_, solids_, types_;  ///< the last entry is for no solid
 };
 
 /// Appends a number with 17 significant digits, as printf's %.17g does in the C locale.
@@ -59,7 +59,7 @@ public:
     /// Throws Error (file), as next() does if the file has another form.
     explicit PartitionReader(const std::string& path) : lines_(path, LineReader::Passes::one) {}
 
-    /// Replaces `ray` by the next one; false at the end of the file.
+    /// Replaces `ray` by the next ray; false at the end of the file.
     bool next(TextRay& ray);
 
 private:

@@ -25,7 +25,7 @@ public:
 
     /// Replaces `items` by the next ones, at most `limit`; false when there are none left.
     bool next(std::vector<Item>& items, std::size_t limit);
-    /// Back to the first one.
+    /// Goes back to the first item.
     void rewind() { lines_.rewind(); }
 
 private:

@@ -33,7 +33,7 @@ int strength(Operator op) {
 /// are added where the order of evaluation differs.
 std::vector<Member> members_of(const Tree& tree) {
     struct Part {
-        std::size_t first;  ///< leaf
+        std::size_t first;  ///< number of the first leaf
         Operator op;
     };
     std::vector<Member> members;
@@ -44,7 +44,7 @@ std::vector<Member> members_of(const Tree& tree) {
             members.push_back({&node, "", ""});
             continue;
         }
-        if (node.arity == 0 || node.arity > stack.size()) return {};  // a broken tree: compiling reports it
+        if (node.arity == 0 || node.arity > stack.size()) return {};  // a broken tree: compilation reports it
         std::size_t base = stack.size() - node.arity;
         for (std::size_t i = base; i < stack.size(); ++i) {
             Member& first = members[stack[i].first];
@@ -75,7 +75,7 @@ public:
 
     /// Prints the tree of an object that the user named or gave a path to.
     void print(const std::string& name, int depth) {
-        const auto named = objects_.find(name);  // object_at() looks at all objects, each time
+        const auto named = objects_.find(name);  // object_at() would search all objects each time
         const Object* object = named != objects_.end() ? named->second : object_at(scene_, name);
         print(object == nullptr ? name : name_of(*object), name, "", depth, 0);
     }
@@ -83,7 +83,7 @@ public:
     std::string text;
 
 private:
-    /// `shown`: the name with the operators and brackets before it.
+    /// Prints an object. `shown`: the name with the operators and brackets before it.
     void print(const std::string& name, const std::string& shown, const std::string& behind, int depth, int level) {
         auto found = objects_.find(name);
         text += std::string(4 * static_cast<std::size_t>(level), ' ') + shown + behind;

@@ -9,7 +9,7 @@
 
 namespace csgrt::cli {
 
-/// Text between quotes, as JSON has it.
+/// The text in quotes, as a string of JSON.
 std::string json_text(std::string_view text);
 
 /// One JSON object, with a line break after it.

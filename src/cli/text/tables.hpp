@@ -17,24 +17,24 @@ namespace csgrt::cli {
 /// numbers in `shape`.
 std::string npy_header(std::string_view type, std::span<const std::uint64_t> shape);
 
-/// Appends numbers as they lie in memory, which is in the order of the machine: little-endian.
+/// Appends numbers as they lie in memory, in the machine's order of bytes: little-endian.
 template <class T>
 void append_bytes(std::string& out, std::span<const T> numbers) {
     out.append(reinterpret_cast<const char*>(numbers.data()), numbers.size_bytes());
 }
 
-/// Appends a field of CSV, between quotes where RFC 4180 asks for them.
+/// Appends a field of CSV, in quotes if RFC 4180 needs them.
 void append_field(std::string& out, std::string_view text);
 
 /// Writes the rows of rays: CSV with the columns of BRL-CAD's nirt, or packed records.
 class RowTable {
 public:
-    /// The format is not text.
+    /// Makes a table. The format is not text.
     RowTable(const Model& model, RowFormat format);
 
-    /// What stands before the rows, if there are `rows`; only npy needs the number.
+    /// The header before the rows, if there are `rows` of them; only npy needs the number.
     std::string header(std::uint64_t rows) const;
-    /// Appends the rows of the i-th ray of an answer, which has this number among all rays.
+    /// Appends the rows of the i-th ray of an answer, whose number among all rays is `number`.
     void append(std::string& out, std::uint64_t number, const Ray& ray, const Partitions& rows, std::size_t i) const;
 
 private:

@@ -20,7 +20,7 @@ const char* where_wrong(const WrongRay& ray) {
     return ray.on_device ? "device" : "reference";
 }
 
-/// "ox oy oz dx dy dz", or with commas.
+/// The numbers of a ray, "ox oy oz dx dy dz", or with commas.
 std::string numbers_of(const Ray& ray, const char* between) {
     std::string text;
     for (const double value :

@@ -1,4 +1,4 @@
-// The result of a verification, for people and for machines.
+// Verification's result, for people and for machines.
 #pragma once
 
 #include <string>

@@ -10,6 +10,7 @@
 
 namespace csgrt {
 
+/// The two boxes of a solid: the tight box is for tracing, BRL-CAD's box is for views and reports.
 struct SolidBoxes {
     /// The box around everything that a ray can hit of the solid: tight, and rounded outward. Infinite if the solid is
     /// not bounded.

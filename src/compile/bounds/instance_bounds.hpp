@@ -11,6 +11,8 @@
 
 namespace csgrt {
 
+/// The boxes of all instances, and the faces of the arbs among them. Later steps of the compilation read them and
+/// compute none.
 class Measured {
 public:
     /// Measures all instances, on several threads.

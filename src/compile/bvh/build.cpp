@@ -36,6 +36,8 @@ float above(double value) {
 
 using BoxOf = std::function<Box(std::size_t)>;
 
+/// Builds the hierarchy on several threads. Tasks are kept in a queue; each writes its nodes into its own part of the
+/// result, and the gaps between the parts are closed at the end.
 class Builder {
 public:
     Builder(std::size_t count, const BoxOf& box_of, const Vec3& center, double radius, std::uint32_t first_solid,

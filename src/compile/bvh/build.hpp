@@ -10,6 +10,7 @@
 
 namespace csgrt {
 
+/// A bounding volume hierarchy in depth-first order, as kernels/traversal/bvh_cursor.h walks it.
 struct Hierarchy {
     std::vector<kernel::BvhNode> nodes;  ///< none if there are no boxes
     std::vector<std::uint32_t> order;    ///< boxes in the order of the leaves

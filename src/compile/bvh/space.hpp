@@ -8,6 +8,7 @@
 
 namespace csgrt {
 
+/// The hierarchy of a scene, and the numbers that its solids get from it.
 struct NumberedSpace {
     Space space;
     std::vector<std::uint32_t> order;  ///< the instances as solids are numbered

@@ -14,6 +14,7 @@ struct alignas(16) Quad {
     float v[4];
 };
 
+/// A box in float, rounded outward, with its number.
 struct FloatBox {
     Quad low, high;
 };
@@ -33,6 +34,7 @@ inline Quad middle(const FloatBox& box) {
 }
 inline void extend(FloatBox& to, const Quad& p) { unite(to, {p, p}); }
 
+/// A range of boxes that becomes a node of the hierarchy, with the measures by which it is cut.
 struct Range {
     std::size_t first, last;
     FloatBox box, middles;  ///< around the boxes and around their middles

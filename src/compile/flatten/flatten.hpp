@@ -19,11 +19,14 @@ struct Instance {
     const Matrix* matrix = nullptr;  ///< from the root: M_top ... M_member; instances of one region mostly share it
 };
 
+/// A region after flattening: one Boolean tree over instances, without combinations.
 struct FlatRegion {
     RegionInfo info;  ///< all members but the bounds
     FlatTree tree;    ///< leaves are instances
 };
 
+/// A scene after flattening. Combinations, their matrices and their names are gone; instances, which have the matrices
+/// from the root, and regions are left.
 struct FlatScene {
     std::vector<std::vector<Matrix>> matrices;  ///< of the instances
     std::vector<Instance> instances;            ///< all instances that trees use, in the order of first use

@@ -49,7 +49,7 @@ struct Source {
     ReferenceLimit references;
 };
 
-/// Where a region starts: a combination with the region flag, or a solid outside all regions.
+/// The object where a region starts: a combination with the region flag, or a solid outside all regions.
 struct RegionStart {
     std::uint32_t object;
     std::uint32_t path;   ///< see RegionForest::path
@@ -63,7 +63,7 @@ public:
     /// Walks down from the object at a path. Throws Error (scene) if there are more references than any model has.
     RegionForest(const Source& source, const ObjectPath& object, bool air);
 
-    /// How many solids the trees of all terms hold together. Pulling unions up may multiply them.
+    /// The number of solids in the trees of all terms together. Pulling unions up may multiply them.
     double solids_in_terms() const;
 
     /// A node of the expression. leaf: `left` is a start. Complement: `left` is the operand.

@@ -40,6 +40,7 @@ SolidPart bend_part(const Bend& bend, double tube) {
             {{-1 * bend.into, -dot(bend.into, bend.from)}, {bend.out, dot(bend.out, bend.to)}}};
 }
 
+/// Collects the parts of a tube: the union of the outer parts, less the union of the inner parts.
 class Collector {
 public:
     void outer(SolidPart part) { add(std::move(part), outer_); }

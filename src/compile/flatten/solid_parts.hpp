@@ -17,6 +17,8 @@ struct SolidPart {
     std::vector<Plane> cuts;  ///< a torus only, two at most: the part inside all of them is kept
 };
 
+/// The parts of a solid, and the tree that makes the solid of them. Flattening puts this tree in place of the solid's
+/// leaf.
 struct SolidParts {
     std::vector<SolidPart> parts;  ///< empty: the solid is not made of others
     FlatTree tree;                 ///< leaves are numbers of parts

@@ -11,6 +11,8 @@
 
 namespace csgrt {
 
+/// A list of rays to trace: the caller's rays, a grid, or points. Nothing is copied; record() makes the kernels' record
+/// of a ray when it is needed.
 class RayList {
 public:
     /// Checks and refers to the rays, which must outlive the list. Throws Error (usage) with the index of the first ray

@@ -27,6 +27,7 @@ namespace {
 
 constexpr std::uint32_t none = 0xffffffff;
 
+/// Builds a balanced binary tree without complements from a region's tree, and writes it as words.
 class Linearizer {
 public:
     std::uint32_t build(const FlatTree& tree);

@@ -8,6 +8,7 @@
 
 namespace csgrt {
 
+/// The words of one tree.
 struct LinearTree {
     std::uint32_t first_word = 0, word_count = 0;  ///< within `words`
     std::uint32_t stack = 0;                       ///< entries that the walk needs at most

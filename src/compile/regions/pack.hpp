@@ -9,6 +9,7 @@
 
 namespace csgrt {
 
+/// The packed regions of a scene: their terms and trees, and the solids' records with the data of terms.
 struct PackedRegions {
     Logic logic;
     std::vector<kernel::SolidRecord> solids;  ///< see list_terms

@@ -13,6 +13,8 @@ namespace kernel {
 
 namespace {
 
+/// Builds the status trees of all regions. Each tree is cut into paths by the sizes of its subtrees, and each path
+/// becomes a balanced tree of clusters.
 class Builder {
 public:
     explicit Builder(const CompiledScene& scene) : scene_(scene) {}

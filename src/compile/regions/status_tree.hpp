@@ -9,6 +9,7 @@
 
 namespace csgrt {
 
+/// The status trees of a scene, as tables for the device.
 struct StatusTree {
     std::vector<std::uint32_t> links;         ///< one a pair of clusters, see layout.h
     std::vector<std::uint32_t> outside;       ///< clusters' functions where no solid covers, 16 a word

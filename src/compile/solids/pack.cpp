@@ -129,7 +129,7 @@ void Packer::operator()(const Ehy& s) {
     face(plane_through(transform_point(matrix, wide(s.v)), cap));
 }
 
-// Solids that are made of others never come here: see pieces.cpp.
+// Solids that are made of others never come here: see solid_parts.cpp.
 void Packer::operator()(const Pipe&) { throw std::logic_error("a pipe is packed piece by piece"); }
 void Packer::operator()(const Cline&) { throw std::logic_error("a cline is packed piece by piece"); }
 

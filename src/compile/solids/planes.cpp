@@ -95,8 +95,8 @@ void PlaneTable::add_to(Shards::Chunk& chunk, const Key& key, const Box& box, st
     // shards stay apart.
     const double part_of_radius =
         std::max(1.0 / 8192, 4 * offset_reach_ / radius_ * static_cast<double>(planes) / (Shards::count / 16));
-    // It is enough that one of two planes is looked up in the cell of the other. So planes across an axis, which crowd
-    // where solids stand on one plate, are looked up only as far as each other, and the other planes as far as they.
+    // Only one of two planes has to be looked up in the cell of the other. So planes across an axis, which crowd where
+    // solids stand on one plate, are looked up only as far as each other, and the other planes as far as they.
     const double reach = key.axis ? parallel_reach(key, box) : 2 * offset_reach_;
     const auto cells = [&](const Vec3& n, double offset) {
         constexpr double normal = 0.25;

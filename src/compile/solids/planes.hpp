@@ -14,6 +14,8 @@
 
 namespace csgrt {
 
+/// Finds the record of a plane among those of the scene, within the rounding of the model's numbers. A plane and its
+/// reverse are one record; a reference to it has a flip.
 class PlaneTable {
 public:
     /// The limit of distance: two planes are one if over the boxes of both their solids they lie no farther apart than

@@ -9,6 +9,7 @@
 
 namespace csgrt {
 
+/// A line from (u0, v0) to (u1, v1) in a sketch's plane.
 struct StraightLine {
     long double u0 = 0, v0 = 0, u1 = 0, v1 = 0;
 };
@@ -22,6 +23,7 @@ SketchParts sketch_parts(std::vector<BezierCurve> curves);
 /// The origin of a sketch's points: the middle of them all, or the point at that height on the axis u = 0.
 enum class SketchCenter : std::uint8_t { middle, axis };
 
+/// A sketch in the scene's tables: its words, and the centre and unit of its numbers.
 struct PackedSketch {
     std::uint32_t first_word = 0;
     double u = 0, v = 0;  ///< the center

@@ -18,6 +18,8 @@
 
 namespace csgrt {
 
+/// Finds equal curved surfaces among the solids of a scene, within the rounding of the model's numbers. Solids with one
+/// surface then share the numbers of the first.
 class SurfaceTable {
 public:
     /// The limit of distance: two surfaces are one if nowhere on the smaller solid they lie farther apart than this,

@@ -7,6 +7,7 @@
 
 namespace csgrt {
 
+/// The functions of the loaded OpenCL, or the reason why there are none.
 struct OpenClLoader {
     const OpenCl* functions = nullptr;  ///< null: there is no usable loader
     std::string fault;                  ///< the reason; empty if none is installed

@@ -40,6 +40,7 @@ constexpr std::uint32_t same = 1, opposite = 2;  // orientations
 constexpr std::size_t next = 1, model_regions = 2, region_shells = 5, shell_faceuses = 5, orientation = 5,
                       face_loopuses = 8, loop_edgeuses = 8, edge_vertexuse = 11, use_vertex = 4, vertex_point = 3;
 
+/// Follows the records of an nmg from the model to the vertices, and checks each reference.
 class NmgReader {
 public:
     NmgReader(const NmgCounts& counts, std::string_view bytes, std::size_t offset, std::size_t step)

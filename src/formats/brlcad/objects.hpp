@@ -53,6 +53,8 @@ struct BrlcadItem {
 /// Whether objects of a type have no inside, so that they need not be read.
 bool is_brlcad_nothing(std::string_view type);
 
+/// Collects the objects of a database, whatever its form. When all are read, take() completes solids from the objects
+/// and files that they name.
 class BrlcadObjects {
 public:
     explicit BrlcadObjects(Findings& findings) : findings_(findings) {}

@@ -13,6 +13,7 @@
 
 namespace csgrt {
 
+/// Completes the solids of one model, and limits the files and bytes that a model can make csgrt read.
 class BrlcadParts {
 public:
     /// The most bytes that all solids of one model together may copy: many solids may name one large sketch or file,

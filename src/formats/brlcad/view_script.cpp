@@ -61,6 +61,7 @@ std::array<Vec3, 3> axes_towards(const Vec3& to_eye) {
     return {right, cross(back, right), back};
 }
 
+/// Reads the commands of a script up to the end of its first frame.
 class ViewReader {
 public:
     explicit ViewReader(const TextSource& source) : source_(source), findings_(source) {}

@@ -89,6 +89,7 @@ struct JsonNode::Member {
     std::size_t offset = 0;
 };
 
+/// A key that an object may have.
 struct JsonKey {
     std::string_view name;
     bool required = false;

@@ -40,6 +40,7 @@ Material read_material(const JsonNode& node) {
     return material;
 }
 
+/// Reads the sections of a scene file. Wrong values become findings, and reading goes on.
 class SceneReader {
 public:
     SceneReader(const TextSource& source, Findings& findings) : file_{source, findings} {}

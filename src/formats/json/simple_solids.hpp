@@ -40,6 +40,7 @@ struct Cone {
     Vec3 base = {}, height = {};
     double radius = 0, top_radius = 0;
 };
+/// A box whose sides are parallel to the axes.
 struct UprightBox {
     Vec3 low = {}, high = {};
 };

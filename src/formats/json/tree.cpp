@@ -38,6 +38,7 @@ std::string needs(Operator op) {
                                        : "one operand or more");
 }
 
+/// Reads a tree into postfix order. Transforms of inner nodes are multiplied into those of the leaves.
 class TreeReader {
 public:
     explicit TreeReader(Tree& tree) : tree_(tree) {}

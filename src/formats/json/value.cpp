@@ -55,6 +55,7 @@ std::string plain_message(std::string message) {
     return message;
 }
 
+/// Receives the parser's events and builds the tree of values.
 class Builder {
 public:
     Builder(const TextSource& source, Findings& findings, const std::size_t& consumed)

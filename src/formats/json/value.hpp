@@ -16,10 +16,12 @@ struct JsonMember;
 using JsonArray = std::vector<JsonValue>;
 using JsonMembers = std::vector<JsonMember>;  // in the order of the file
 
+/// A value of a JSON text, and its position.
 struct JsonValue {
     std::variant<std::nullptr_t, bool, double, std::string, JsonArray, JsonMembers> data;
     std::size_t offset = 0;  ///< position of its first character
 };
+/// A member of an object, with the position of its name.
 struct JsonMember {
     std::string name;
     std::size_t offset = 0;  ///< position of the name's first quote

@@ -12,6 +12,7 @@ namespace csgrt {
 /// pixels of it, or rays as the caller gave them.
 enum class Work : std::uint32_t { tiles = WORK_TILES, pixels = WORK_PIXELS, rays = WORK_RAYS };
 
+/// The buffers of one batch that several passes share: its frame, its list of tiles, pixels or rays, and its report.
 struct BatchBuffers {
     explicit BatchBuffers(Device& device)
         : frame(device, "frame"),

@@ -15,6 +15,8 @@
 
 namespace csgrt {
 
+/// Sorts and sweeps the deep rays of a batch, in groups that fit the memory. The time of a ray of n segments grows as n
+/// log n, where kernels 3 and 4 need n^2 and more.
 class DeepRayPass {
 public:
     /// Takes the kernels of kernels/3_deep_rays.cl from `program`. The scene must outlive the pass.

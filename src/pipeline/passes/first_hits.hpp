@@ -6,6 +6,8 @@
 
 namespace csgrt {
 
+/// Launches the kernel of first hits. Its rays evaluate their events from front to back in private memory and stop at
+/// the first claim.
 class FirstHitPass {
 public:
     /// Compiles its kernels. Throws Error (device_fault).

@@ -15,6 +15,7 @@
 
 namespace csgrt {
 
+/// Calls the native kernels directly, batch by batch. One object serves all threads; memory is each thread's own.
 class NativeTracer {
 public:
     /// Refers to the level's programs "partitions" and "first_hits", and to the scene, which must outlive the tracer.
@@ -29,8 +30,8 @@ public:
     bool trace(const kernel::Frame& frame, std::span<const kernel::RayRecord> rays, Fields fields,
                const std::atomic<bool>* stop, RowMemory& rows, PipelineCounts& counts) const;
 
-    /// Puts the rows of rays [first, end) of a list into the sink, one batch after the other. Any thread. Throws Error
-    /// (out_of_memory, interrupted).
+    /// Puts the rows of rays [first, end) of a list into the receiver, one batch after the other. Any thread. Throws
+    /// Error (out_of_memory, interrupted).
     void trace(const kernel::Frame& frame, const RayList& rays, std::uint64_t first, std::uint64_t end,
                const std::atomic<bool>* stop, RowReceiver& receiver, PipelineCounts& counts) const;
 

@@ -30,6 +30,7 @@ struct PartitionSizes {
     }
 };
 
+/// The buffers of a batch's segments and partitions. They are kept from batch to batch and grow to the largest.
 class PartitionMemory {
 public:
     PartitionMemory(Device& device, const HostKernels& kernels);

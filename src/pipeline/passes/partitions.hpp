@@ -24,6 +24,8 @@
 
 namespace csgrt {
 
+/// Launches kernels 1 to 5 for a batch, and kernel 6 for a list. It owns the buffers between them, and remembers how
+/// many segments rays had, to size the buffers of later batches.
 class PartitionPass {
 public:
     /// The input of the kernels. The batch's frame and lists are uploaded already.

@@ -14,6 +14,7 @@
 
 namespace csgrt {
 
+/// Launches kernel 6, and copies its arrays to the host while the next batch is traced.
 class RowPass {
 public:
     /// Takes the kernels of kernels/6_rows.cl from `program`. All arguments must outlive the pass.

@@ -9,6 +9,8 @@
 
 namespace csgrt {
 
+/// Launches the kernels of kernels/tile_list.cl. The list is made on the device, so the host queues the drawing kernels
+/// without waiting for it.
 class TileListPass {
 public:
     explicit TileListPass(Device& device) : device_(device) {}

@@ -10,6 +10,7 @@
 
 namespace csgrt {
 
+/// The registrations of one picture's memory with the GPUs that draw into it. They end with the object.
 class RegisteredMemory {
 public:
     /// Refers to all channels of a picture, `bytes` from `data` on. The memory must outlive the object.

@@ -14,6 +14,7 @@
 
 namespace csgrt {
 
+/// A ring of pictures on the device. A batch is drawn into one of them while others are copied to the host.
 class ReadbackRing {
 public:
     /// The rows of a batch's picture on the device, channel by channel.

@@ -24,6 +24,8 @@
 
 namespace csgrt {
 
+/// Draws frames on a GPU. Each of its two batches goes through the stages above; the schedule advances the batch that
+/// needs no wait, so that the device always has queued work.
 class AsynchronousSchedule {
 public:
     /// Draws whole tiles by `passes`; `pixels` traces single pixels.

@@ -15,6 +15,8 @@ namespace csgrt {
 /// Returns the next rays; empty: there are none left.
 using TakeRays = std::function<RayNumbers()>;
 
+/// Gives out batches of rays, each as large as the memory allows. A batch that does not fit is given back and comes
+/// again, whole or in halves.
 class BatchSource {
 public:
     /// Makes a source. `most`: the most rays of a batch, read when a range is taken. `row`: the rays of a row of the

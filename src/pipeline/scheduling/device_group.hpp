@@ -14,6 +14,8 @@
 
 namespace csgrt {
 
+/// The devices that answer a call together. A faster device takes more parts of a frame; the pixels are the same, since
+/// each ray is computed alone.
 class DeviceGroup {
 public:
     /// Makes pipelines on these devices; `settings.device` is not read. The scene and the kernels must outlive the

@@ -11,6 +11,7 @@ struct RayNumbers {
     std::uint64_t first = 0, end = 0;
 };
 
+/// Divides a frame's rays among devices: large parts first, smaller ones near the end.
 class Parts {
 public:
     /// Makes parts of `least` to `most` rays, in units of `unit`, which is a row of a picture's tiles. Near the end the

@@ -16,12 +16,14 @@ struct FrameShape {
 };
 FrameShape shape_of(const kernel::Frame& frame, std::size_t channels);
 
+/// The memory that a device has for a batch.
 struct DeviceMemory {
     std::uint64_t available = 0;   ///< bytes that are free
     std::uint64_t held = 0;        ///< bytes that the pipeline holds and may give back
     std::uint64_t max_buffer = 0;  ///< bytes of one buffer at most
 };
 
+/// The sizes of batches that fit the memory.
 struct MemoryPlan {
     std::uint64_t ray_bytes = 0;   ///< of each ray, whatever it hits, with all batches that are underway at a time
     std::uint64_t batch_rays = 1;  ///< at most; less than a tile if the memory holds no more

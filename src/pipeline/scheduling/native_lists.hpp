@@ -9,13 +9,15 @@
 
 namespace csgrt {
 
+/// Traces lists on all threads of the host. Each thread takes the next batch of the list and traces it by the
+/// NativeTracer.
 class NativeLists {
 public:
     /// Refers to its arguments, which must outlive it.
     NativeLists(const native::Level& level, const CompiledScene& scene, const Device& device)
         : device_(device), tracer_(level, scene, device.budget()) {}
 
-    /// Puts the rows of a range of the list into the sink.
+    /// Puts the rows of a range of the list into the receiver.
     void trace(const kernel::Frame& frame, const RayList& list, const RayNumbers& range, RowReceiver& receiver,
                const ReportDone& report_done, PipelineCounts& counts) const;
 

@@ -9,9 +9,11 @@
 
 namespace csgrt {
 
-/// How many batches are underway: one or two, by the device's kind, or two on any device.
+/// The number of batches that are underway: one or two, by the device's kind, or two on any device.
 enum class Readback { by_device, asynchronous };
 
+/// Draws frames and traces lists on one device. It has the scene's tables, the passes and both schedules; the device's
+/// kind decides which schedule draws.
 class Pipeline {
 public:
     /// The most rays of a picture's batch: the pixels of one batch are copied while the next is drawn.
@@ -44,8 +46,8 @@ public:
     void finish();
     /// Returns when nothing more comes into the target.
     void abandon() noexcept;
-    /// Puts the rows of each ray that `take` gives into the sink. The native device's own kernels are called without
-    /// OpenCL.
+    /// Puts the rows of each ray that `take` gives into the receiver. The native device's own kernels are called
+    /// without OpenCL.
     void trace_list(const kernel::Frame& frame, const RayList& rays, const TakeRays& take, RowReceiver& receiver,
                     const ReportDone& report_done, PipelineCounts& counts);
 

@@ -30,6 +30,7 @@ private:
     std::uint64_t rays_ = 1 << 13;
 };
 
+/// Draws frames on processors, and traces single pixels and lists on any device, one batch at a time.
 class SynchronousSchedule {
 public:
     /// Refers to the passes. `memory`: the device's, with everything that the pipeline holds of it. `reclaim` gives
@@ -41,7 +42,7 @@ public:
     void draw_pixels(const FrameJob& job, std::span<const std::uint32_t> numbers);
     /// The pixels of a batch that is less than a tile.
     void draw_part_of_tile(const FrameJob& job, const RayBatch& batch);
-    /// Puts the rows of the rays that `source` gives, by number, into the sink.
+    /// Puts the rows of the rays that `source` gives, by number, into the receiver.
     void trace_list(const kernel::Frame& frame, const RayList& rays, BatchSource& source, RowReceiver& receiver,
                     const ReportDone& report_done, PipelineCounts& counts);
 

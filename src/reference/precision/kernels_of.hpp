@@ -135,6 +135,7 @@ k::world_ray convert_ray(const Ray& r) {
             {static_cast<wide>(r.direction.x), static_cast<wide>(r.direction.y), static_cast<wide>(r.direction.z)}};
 }
 
+/// The kernels of this precision over a compiled scene, whose tables it converts once.
 class Kernels : public ReferenceKernels {
 public:
     Kernels(const CompiledScene& scene, Quartic quartic)

@@ -17,6 +17,7 @@ inline bool comes_before(const Place& a, const Place& b) {
     return std::tie(a.line, a.column, a.offset) < std::tie(b.line, b.column, b.offset);
 }
 
+/// Collects findings and sorts them by their places in the file.
 class FindingList {
 public:
     /// The most findings that are shown; the others are counted.

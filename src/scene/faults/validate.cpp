@@ -28,6 +28,8 @@ constexpr std::uint64_t far_too_many = UINT64_MAX;
 
 std::uint64_t saturating_sum(std::uint64_t a, std::uint64_t b) { return a > far_too_many - b ? far_too_many : a + b; }
 
+/// Validates the objects below the rendered ones, depth first. In a lenient scene it marks faulty objects as left out;
+/// in a strict one it reports them.
 class Validation {
 public:
     Validation(const Scene& scene, Names& names, bool skip_unsupported, std::uint64_t max_instances)

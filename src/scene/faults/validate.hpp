@@ -10,6 +10,7 @@
 
 namespace csgrt {
 
+/// The result of a validation.
 struct Validated {
     std::vector<Diagnostic> findings;
     /// One an object: how many instances one transform of it expands to, everything below it included. 0 for

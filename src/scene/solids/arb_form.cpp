@@ -177,7 +177,7 @@ bool is_without_volume(const Arb& arb) {
     if (std::abs(rough) > 1e-9 * size * size * size) return false;
     const Form form = form_of(arb);
     if (!form.is_flat) return false;
-    // In each plane the areas of the faces, with their signs, and their first moments cancel.
+    // The areas of the faces in each plane, with their signs, cancel, and so do their first moments.
     for (const Outline& plane : form.faces) {
         if (plane.count == 0) continue;
         const double near = form.depth_of(plane);

@@ -7,6 +7,7 @@
 
 namespace csgrt {
 
+/// An intersection of half-spaces, described by its corners.
 struct Polytope {
     enum class Kind {
         empty,  ///< no point lies strictly inside all half-spaces

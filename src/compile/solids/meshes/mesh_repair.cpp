@@ -144,6 +144,7 @@ enum class Copies {
     vanish_as_sheets,  ///< nor do faces of which both sides are given, and that no edge needs
 };
 
+/// The numbers of faults of each kind, for the notes.
 struct Counts {
     std::size_t repeated = 0, walls = 0, flat = 0, split = 0, turned = 0, not_looked_at = 0;
 };

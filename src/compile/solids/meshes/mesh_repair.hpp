@@ -34,6 +34,7 @@
 
 namespace csgrt {
 
+/// A bot after repair: a surface whose inside is well defined, and notes on the faults.
 struct RepairedMesh {
     Triangles mesh;
     std::vector<std::uint32_t> from;  ///< one a face: the bot's face that it is, or is a part of

@@ -12,6 +12,7 @@
 
 namespace csgrt {
 
+/// A range of cells along one dimension, both limits included.
 struct CellRange {
     std::int64_t first, last;
 };

@@ -86,6 +86,7 @@ Triangles triangles_of(const Dsp& dsp) {
 
 namespace {
 
+/// The cells of a vol, and the faces between solid and empty ones.
 class Volume {
 public:
     explicit Volume(const Vol& vol)

@@ -14,6 +14,7 @@ namespace csgrt {
 
 constexpr std::size_t word_size = 4, real_size = 8;  // bytes of a whole number and of a double
 
+/// A binary file in memory. Places in it are byte offsets.
 class ByteSource : public Source {
 public:
     /// `name`: the file's name in diagnostics.

@@ -18,6 +18,7 @@ struct GBlock {
     bool compressed = false;
 };
 
+/// An object of a database, as its frame describes it.
 struct GObject {
     enum class Kind { data, header, free, unknown };
 

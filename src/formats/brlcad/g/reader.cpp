@@ -28,6 +28,7 @@ bool is_release_4(std::string_view bytes) {
     return bytes.size() > 2 && bytes.starts_with('I') && bytes.substr(2, 2) == "v4";
 }
 
+/// Reads a database object by object. A broken object becomes a finding, and reading goes on at the next.
 class GReader {
 public:
     GReader(const ByteSource& source, bool lenient)

@@ -28,6 +28,7 @@ std::optional<Operator> operator_of(std::uint8_t token) {
     return operators[token - leaf_token - 1];
 }
 
+/// Reads the tree of one combination.
 class GTreeReader {
 public:
     GTreeReader(const GBlock& body, const ByteSource& source, const std::string& object)

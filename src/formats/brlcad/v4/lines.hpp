@@ -18,6 +18,7 @@ struct Line {
     std::size_t offset = 0;
 };
 
+/// Reads a text line by line.
 class LineReader {
 public:
     /// Reads the lines from `begin` on.
@@ -43,6 +44,7 @@ private:
     std::size_t next_;
 };
 
+/// A field of a line, and its position in the file.
 struct Field {
     std::string_view text;
     std::size_t offset = 0;

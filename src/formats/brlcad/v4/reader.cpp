@@ -72,6 +72,7 @@ bool starts_record(const Line& line) {
            std::string_view("ISCMmABPQDF#").find(line.text[0]) != std::string_view::npos;
 }
 
+/// Reads a v4 database record by record. A broken record becomes a finding, and reading goes on at the next.
 class V4Reader {
 public:
     V4Reader(const TextSource& source, bool lenient)

@@ -11,6 +11,7 @@
 
 namespace csgrt {
 
+/// A key and its value, as a database has them.
 struct Attribute {
     std::string_view key;
     TclWord value;

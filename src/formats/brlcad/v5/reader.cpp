@@ -29,6 +29,7 @@ namespace {
 /// Bytes that may be read twice: an unclosed brace is searched to the end of the file, and reading goes on behind it.
 constexpr std::size_t most_read_again = std::size_t{1} << 28;
 
+/// Reads a v5 text database command by command. A broken command becomes a finding, and reading goes on at the next.
 class V5Reader {
 public:
     V5Reader(const TextSource& source, bool lenient)

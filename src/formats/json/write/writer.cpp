@@ -25,6 +25,7 @@ struct Entry {
     ordered_json value;
 };
 
+/// Writes the sections of a scene file, with all lengths in one unit.
 class SceneWriter {
 public:
     /// `unit`: millimetres in the file's unit, whose name is `unit_name`.
