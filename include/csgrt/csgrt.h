@@ -353,8 +353,8 @@ CSGRT_API csgrt_status csgrt_model_get_info(const csgrt_model* model, csgrt_mode
 /// csgrt::RegionInfo
 typedef struct csgrt_region_info {
     size_t size;
-    /// "/top/.../region": the legs on the way down, by TreeNode::name. No other region has it, and edits of other
-    /// regions do not change it: the key by which a region is found again in a later Model.
+    /// "/top/.../region": the members on the way down, by TreeNode::name. No other region has the same path, and edits
+    /// of other regions do not change it: it is the key of the region in a later Model.
     const char* path;
     /// FASTGEN's kind of the region.
     int fastgen;

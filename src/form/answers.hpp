@@ -96,8 +96,8 @@ template <>
 inline constexpr auto of<RegionInfo> = Form{
     plain("region_info"),
     required("path", &RegionInfo::path, text,
-             "\"/top/.../region\": the legs on the way down, by TreeNode::name. No other region has it, and edits of "
-             "other regions do not change it: the key by which a region is found again in a later Model."),
+             "\"/top/.../region\": the members on the way down, by TreeNode::name. No other region has the same path, "
+             "and edits of other regions do not change it: it is the key of the region in a later Model."),
     required("fastgen", &RegionInfo::fastgen, Named{&fastgen_names}, "FASTGEN's kind of the region."),
     required("region_id", &RegionInfo::region_id, integer, "BRL-CAD's number of the region, which is not its index."),
     required("air", &RegionInfo::air, integer, "BRL-CAD's number of the air; other than 0: a region of air."),
