@@ -10,6 +10,11 @@
 #include "solid.h"
 #include "touch.h"
 
+// A function that a WHOLE_FN calls all the same: much code, and so much work that the call is little of it.
+#ifndef PART_FN
+#define PART_FN FN
+#endif
+
 FN void put_segment(ENDS Boundary* boundaries, u32 solid, real in, u32 in_surface, real out, u32 out_surface) {
     Boundary e;
     e.solid = solid;
@@ -92,8 +97,8 @@ NOINLINE_FN u32 collect_beside(Geometry g, SolidRecord solid, u32 index, ray3 r,
 
 // Collects from solids of types that may have more than two segments. Returns 0 if the type is another; else *count is
 // set. See collect_as_it_is(). `r` is the solid's own ray (ray_at).
-FN u32 collect_many(Geometry g, SolidRecord solid, u32 index, ray3 r, real t_min, ENDS Boundary* boundaries, u32* count,
-                    u32* near) {
+PART_FN u32 collect_many(Geometry g, SolidRecord solid, u32 index, ray3 r, real t_min, ENDS Boundary* boundaries,
+                         u32* count, u32* near) {
 #if (CSGRT_SOLIDS) & FLAT_FACED
     if (FLAT_FACED >> solid.type & 1u) {
         *count = collect_once(g, solid, r, no_crossings(index, t_min, boundaries), not_beside(), near);

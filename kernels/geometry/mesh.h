@@ -107,7 +107,7 @@ RARE_FN real moved_back(mesh_walk w, beside b, GLOBAL const real* place, ray3 r)
     return w.t + dot3(n, aside(b, place, r)) / rate;
 }
 
-FN u32 mesh_collect(Geometry g, SolidRecord solid, ray3 r, crossings c, beside b, u32* near) {
+WHOLE_FN u32 mesh_collect(Geometry g, SolidRecord solid, ray3 r, crossings c, beside b, u32* near) {
     GLOBAL const u32* mesh = g.words + solid.first_word;
     GLOBAL const real* place = g.reals + solid.first_real;
     u32 facing = mesh[MESH_FACING], outs = 0;

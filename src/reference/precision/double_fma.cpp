@@ -17,7 +17,10 @@
 
 #ifdef __OPTIMIZE__
 #undef WHOLE_FN
+#undef NOINLINE_FN
 #define WHOLE_FN [[gnu::flatten]] FN
+#define NOINLINE_FN FN __attribute__((noinline))
+#define PART_FN NOINLINE_FN
 #endif
 
 namespace csgrt::fused {
