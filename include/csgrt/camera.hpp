@@ -21,9 +21,9 @@ struct Camera {
     /// Height of the view at the middle of the picture; the diagonal of the model's box if not given. A parallel view
     /// shows everything before its plane, however small it is.
     std::optional<double> view_size = {};
-    /// Where the eye is, in place of azimuth and elevation. With a perspective it gives the size of the view, too; a
-    /// parallel view takes only its direction from it. The angles have no effect then; JSON, the command and Python,
-    /// which know what was given, refuse them beside it. `view_size` must be absent in a perspective.
+    /// Where the eye is, in place of azimuth and elevation, which have no effect then. With a perspective it gives the
+    /// size of the view, too; a parallel view takes only its direction from it. JSON, the command and Python's keywords
+    /// refuse angles beside an eye. `view_size` must be absent in a perspective.
     std::optional<Vec3> eye = {};
     std::optional<Vec3> look_at = {};  ///< Another name of the picture's middle. `center` must be absent then.
     /// The direction that points up in the picture; +z if not given, or in a view straight down or up the direction

@@ -80,7 +80,7 @@ typedef struct csgrt_box {
 } csgrt_box;
 typedef struct csgrt_plane {
     csgrt_vec3 normal;
-    /// Millimetres, from the origin, whatever the normal's length.
+    /// From the origin, along the normal.
     double distance;
 } csgrt_plane;
 
@@ -110,11 +110,13 @@ typedef struct csgrt_settings {
     int reference;
     /// Calls wait until a GPU's kernels are compiled; else this processor computes until then, with the same bits.
     int wait_for_device;
-    /// Seconds that a device may take for an answer before it is given up; 0: any time.
+    /// Seconds that a device may take for an answer before it is given up; 0: any time. -1: 60 for a GPU and any time
+    /// for a processor.
     double device_timeout;
-    /// Bytes of memory to use on each device; a frame that needs more is drawn in batches.
+    /// Bytes of memory to use on each device; a frame that needs more is drawn in batches. 0: what the device has.
     uint64_t max_memory;
-    /// Most solids of the model, as often as its trees use them; they are counted before any is made.
+    /// Most solids of the model, as often as its trees use them; they are counted before any is made. 1 to 20000000; 0:
+    /// what docs/limits.md says.
     uint64_t max_instances;
     /// Numbers of the geometry; single ones are relative to the eye.
     int precision;
@@ -131,9 +133,9 @@ typedef struct csgrt_settings {
     /// first.
     int display_shading;
     /// The CPU reference traces the first batch of rays and every N-th after it as well, and a call whose bits differ
-    /// fails.
+    /// fails. 0: none.
     unsigned check;
-    /// Threads that work on processors at a time, for all calls together.
+    /// Threads that work on processors at a time, for all calls together. 1 to 4096; 0: one for each processor.
     unsigned threads;
     /// A function that is called with the done fraction, and ends the call if it returns false.
     csgrt_progress progress;  ///< NULL: none
@@ -275,8 +277,8 @@ typedef struct csgrt_camera {
     /// Height of the view at the middle of the picture; the diagonal of the model's box if not given. A parallel view
     /// shows everything before its plane, however small it is.
     double view_size;  ///< 0: not given
-    /// Where the eye is, in place of azimuth and elevation. With a perspective it gives the size of the view, too; a
-    /// parallel view takes only its direction from it.
+    /// Where the eye is, in place of azimuth and elevation, which have no effect then. With a perspective it gives the
+    /// size of the view, too; a parallel view takes only its direction from it.
     const csgrt_vec3* eye;  ///< NULL: not given
     /// Another name of the picture's middle.
     const csgrt_vec3* look_at;  ///< NULL: not given
@@ -353,8 +355,8 @@ CSGRT_API csgrt_status csgrt_model_get_info(const csgrt_model* model, csgrt_mode
 /// csgrt::RegionInfo
 typedef struct csgrt_region_info {
     size_t size;
-    /// "/top/.../region": the members on the way down, by TreeNode::name. No other region has the same path, and edits
-    /// of other regions do not change it: it is the key of the region in a later Model.
+    /// "/top/.../region": the members on the way down, by their names. No other region has the same path, and edits of
+    /// other regions do not change it: it is the key of the region in a later Model.
     const char* path;
     /// FASTGEN's kind of the region.
     int fastgen;
@@ -549,10 +551,10 @@ typedef struct csgrt_statistics {
     size_t size;
     /// The device that computed, or "reference".
     const char* device;
-    /// The device that is made ready at the time of Renderer::statistics() and will replace `device`: its name, "gpu"
-    /// while none is found, empty if none is awaited.
+    /// The device that is made ready at the time of this call and will replace `device`: its name, "gpu" while none is
+    /// found, empty if none is awaited.
     const char* awaited_device;
-    /// As in precision_names, or "quad".
+    /// "double", "single" or "quad".
     const char* precision;
     /// A few words.
     const char* method;
@@ -632,9 +634,9 @@ typedef struct csgrt_pixel_rectangle {
 /// csgrt::View: what to draw.
 typedef struct csgrt_view {
     size_t size;
-    /// Pixels.
+    /// Pixels. 1 to 32768.
     int width;
-    /// Pixels.
+    /// Pixels. 1 to 32768.
     int height;
     const csgrt_camera* camera;  ///< NULL: CSGRT_CAMERA
     /// Everything along each ray is computed; else first hits alone, several times faster, without the channels depth,
@@ -647,7 +649,7 @@ typedef struct csgrt_view {
     size_t clip_count;
     /// The pixels that the picture has alone, each as in the whole.
     const csgrt_pixel_rectangle* part;  ///< NULL: all of them
-    /// Rays a pixel, whose mean the colours are.
+    /// Rays a pixel, whose mean the colours are. 1 to 256.
     int samples;
     /// No background: red, green, blue and alpha are 0 where a ray hits nothing.
     int transparent;

@@ -17,7 +17,7 @@ namespace csgrt {
 
 /// One region of the compiled model.
 struct RegionInfo {
-    /// "/top/.../region": the members on the way down, by TreeNode::name. No other region has the same path, and edits
+    /// "/top/.../region": the members on the way down, by their names. No other region has the same path, and edits
     /// of other regions do not change it: it is the key of the region in a later Model.
     std::string path = {};
     Fastgen fastgen = Fastgen::none;  ///< FASTGEN's kind of the region.

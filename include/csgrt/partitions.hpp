@@ -123,7 +123,7 @@ struct Pick {
     RayPartitions along = {};  ///< all regions, hidden ones, too; as in Renderer::shoot()
 };
 
-/// The first hits of a list of rays: for each ray the first row that Partitions would have.
+/// The first hits of a list of rays: for each ray the first row that Partitions would have without hidden.
 struct Hits {
     Array<double> t_hit = {};             ///< (rays), distances in lengths of the ray's direction; infinity: a miss
     Array<std::int32_t> region_ids = {};  ///< (rays), indices into Model::regions(); -1: a miss

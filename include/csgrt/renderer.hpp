@@ -30,7 +30,7 @@ namespace csgrt {
 class CSGRT_API Renderer {
 public:
     /// Opens devices and copies the model to them. Settings of the scene have no effect here (see Model::Model). Throws
-    /// Error: usage (settings that exclude each other), no_device, out_of_memory, device_fault. If a GPU that was named
+    /// Error: usage (settings out of their ranges), no_device, out_of_memory, device_fault. If a GPU that was named
     /// fails while it is made ready, the next call throws (device_fault, out_of_memory); if it was chosen by default,
     /// device_warnings() reports it.
     explicit Renderer(Model model, const Settings& settings = {});

@@ -10,10 +10,10 @@ namespace csgrt {
 /// only for rays that need the computation of every partition.
 struct Statistics {
     std::string device = {};  ///< The device that computed, or "reference".
-    /// The device that is made ready at the time of Renderer::statistics() and will replace `device`: its name, "gpu"
-    /// while none is found, empty if none is awaited.
+    /// The device that is made ready at the time of this call and will replace `device`: its name, "gpu" while none is
+    /// found, empty if none is awaited.
     std::string awaited_device = {};
-    std::string precision = {};  ///< As in precision_names, or "quad".
+    std::string precision = {};  ///< "double", "single" or "quad".
     std::string method = {};     ///< A few words.
     double tolerance = 0;        ///< Millimetres: the one that Settings::tolerance_rule gave.
     int width = 0;               ///< Of the picture, pixels; 0 for rays.

@@ -356,7 +356,7 @@ void bind_scene(nb::module_& module) {
                  return occluded(scene, rays, {near, far}, ranges);
              })
         .def("_regions_at", &region_at)
-        .def("slice", &slice, "normal"_a, "offset"_a, "pixels"_a = std::pair(512, 512), "hidden"_a = true,
+        .def("slice", &slice, "normal"_a, "offset"_a, "pixels"_a = std::pair(1024, 1024), "hidden"_a = true,
              "Which region holds each pixel of a cut by the plane n . p = offset (n: the normal's unit vector).\n\n"
              "pixels: (width, height), square, over the whole model. hidden=False leaves out what pictures do not show."
              "\nReturns (height, width) int32: ids in regions; -1 nothing, -2 several that overlap. Seen from the side "

@@ -31,17 +31,20 @@ void bind_member(nb::class_<S>& bound, const Member& member) {
     using Value = std::remove_cvref_t<decltype(std::declval<S&>().*member.at)>;
     const std::string text(member.key.member);
     const char* const name = text.c_str();
+    std::string sentence = form::whole_sentence(member, S{}.*member.at);
+    if constexpr (std::is_same_v<Value, std::vector<Plane>>) sentence += " A list of (normal, distance).";
+    const char* const doc = sentence.c_str();  // nanobind copies it
     const auto at = member.at;
     if constexpr (std::is_same_v<Value, std::function<bool(double)>> ||
                   std::is_same_v<Value, std::optional<PixelRectangle>>) {
         // Ctrl-C ends a call; a part of a picture is a slice of its array.
     } else if constexpr (std::is_enum_v<Value>) {
-        named(bound, name, at, *member.kind.offered, member.help);
+        named(bound, name, at, *member.kind.names, doc);
     } else if constexpr (std::is_same_v<Value, std::string>) {
         bound.def_prop_rw(
             name, [at](const S& s) { return s.*at; },
             [at](S& s, const nb::object& choice) { s.*at = nb::str(choice).c_str(); },
-            nb::for_setter(nb::sig("def device(self, arg: csgrt._values.DeviceChoice, /) -> None")), member.help);
+            nb::for_setter(nb::sig("def device(self, arg: csgrt._values.DeviceChoice, /) -> None")), doc);
     } else if constexpr (std::is_same_v<Value, std::vector<Plane>>) {
         bound.def_prop_rw(
             name,
@@ -54,11 +57,11 @@ void bind_member(nb::class_<S>& bound, const Member& member) {
                 (s.*at).clear();
                 for (const auto& [normal, distance] : planes) (s.*at).push_back({normal, distance});
             },
-            member.help);
+            doc);
     } else if constexpr (std::is_same_v<Value, std::optional<Vec3>> || std::is_same_v<Value, std::optional<double>>) {
-        bound.def_rw(name, at, nb::none(), member.help);
+        bound.def_rw(name, at, nb::none(), doc);
     } else {
-        bound.def_rw(name, at, member.help);
+        bound.def_rw(name, at, doc);
     }
 }
 
@@ -80,9 +83,7 @@ void bind_settings(nb::module_& module) {
         .def("_merged", [](const Camera& camera, const Camera& given, const std::set<std::string>& members) {
             const auto is_given = [&](std::string_view member) { return members.contains(std::string(member)); };
             if (const CameraConflict* conflict = conflict_of(given, is_given))
-                throw nb::value_error((std::string(conflict->member) + " cannot be combined with " +
-                                       std::string(conflict->other) + ": " + conflict->reason)
-                                          .c_str());
+                throw nb::value_error(text_of(*conflict).c_str());
             return merged(camera, given, is_given);
         });
     bind<View>(module, "View", "What a picture shows.").def(nb::init<>());

@@ -11,6 +11,7 @@
 #include "compile/appearance.hpp"
 #include "compile/screen_bounds.hpp"
 #include "compile/solids/planes.hpp"
+#include "form/camera.hpp"
 #include "scene/range.hpp"
 
 namespace csgrt {
@@ -69,8 +70,6 @@ Surroundings surroundings_of(const CompiledScene& scene) {
 constexpr double standoff = std::numbers::sqrt2;
 
 dvec3 center_of(const Camera& camera, const Surroundings& model) {
-    if (camera.center && camera.look_at)
-        refuse("the centre of the view and the point that it looks at are one: give one of them");
     if (camera.look_at) return in_range(*camera.look_at, "the point that the view looks at");
     return camera.center ? in_range(*camera.center, "the centre of the view") : model.center;
 }
@@ -197,6 +196,13 @@ PreparedFrame prepare_frame(const CompiledScene& scene, const View& view, double
     if (!(camera.perspective >= 0 && camera.perspective < 180))
         refuse("perspective must be 0 or an angle below 180 degrees");
     if (view.samples < 1 || view.samples > 256) refuse("a pixel has 1 to 256 samples");
+    if ((view.channels & ~(channel::all | channel::display | channel::ghosts)) != 0)
+        refuse("the channels " + std::to_string(view.channels) + " have bits that no channel has");
+    const auto is_given = [&](std::string_view member) {
+        return (member == "eye" && camera.eye) || (member == "center" && camera.center) ||
+               (member == "look_at" && camera.look_at) || (member == "view_size" && camera.view_size);
+    };
+    if (const CameraConflict* conflict = conflict_of(camera, is_given)) refuse(text_of(*conflict));
     const PixelRectangle part = view.part ? *view.part : PixelRectangle{0, 0, view.width, view.height};
     if (part.left < 0 || part.top < 0 || part.width < 1 || part.height < 1 || part.left > view.width - part.width ||
         part.top > view.height - part.height)
@@ -210,8 +216,6 @@ PreparedFrame prepare_frame(const CompiledScene& scene, const View& view, double
     const bool perspective = camera.perspective > 0;
     const double slope = std::tan(camera.perspective * std::numbers::pi / 360.0);
     if (camera.eye && perspective) {
-        if (camera.view_size)
-            refuse("the eye and the perspective give the size of the view: leave one of the three out");
         result.eye_to_center = in_range(axes.distance, Limits::least_length, "the distance of the eye");
         result.view_size = in_range(2 * slope * axes.distance, Limits::least_length, "the size of the view");
     } else {

@@ -96,7 +96,7 @@ template <>
 inline constexpr auto of<RegionInfo> = Form{
     plain("region_info"),
     required("path", &RegionInfo::path, text,
-             "\"/top/.../region\": the members on the way down, by TreeNode::name. No other region has the same path, "
+             "\"/top/.../region\": the members on the way down, by their names. No other region has the same path, "
              "and edits of other regions do not change it: it is the key of the region in a later Model."),
     required("fastgen", &RegionInfo::fastgen, Named{&fastgen_names}, "FASTGEN's kind of the region."),
     required("region_id", &RegionInfo::region_id, integer, "BRL-CAD's number of the region, which is not its index."),
@@ -128,9 +128,9 @@ inline constexpr auto of<Statistics> = Form{
     plain("statistics"),
     required("device", &Statistics::device, text, "The device that computed, or \"reference\"."),
     required("awaited_device", &Statistics::awaited_device, text,
-             "The device that is made ready at the time of Renderer::statistics() and will replace `device`: its name, "
+             "The device that is made ready at the time of this call and will replace `device`: its name, "
              "\"gpu\" while none is found, empty if none is awaited."),
-    required("precision", &Statistics::precision, text, "As in precision_names, or \"quad\"."),
+    required("precision", &Statistics::precision, text, "\"double\", \"single\" or \"quad\"."),
     required("method", &Statistics::method, text, "A few words."),
     required("tolerance", &Statistics::tolerance, number, "Millimetres: the one that Settings::tolerance_rule gave."),
     required("width", &Statistics::width, integer, "Of the picture, pixels; 0 for rays."),

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <initializer_list>
+#include <string>
 #include <string_view>
 
 #include "form/requests.hpp"
@@ -20,6 +21,11 @@ inline constexpr CameraConflict camera_conflicts[] = {
     {"look_at", "center", "they are one point, the middle of the picture"},
     {"view_size", "eye", "the eye and the perspective give the size of the view", true},
 };
+
+inline std::string text_of(const CameraConflict& conflict) {
+    return std::string(conflict.member) + " cannot be combined with " + std::string(conflict.other) + ": " +
+           conflict.reason;
+}
 
 /// The first conflict among the members that `is_given(name)` tells, or null.
 template <class IsGiven>

@@ -7,6 +7,8 @@
 #include <csgrt/settings.hpp>
 #include <csgrt/view.hpp>
 
+#include <string>
+
 #include "form/names.hpp"
 
 namespace csgrt::form {
@@ -124,8 +126,8 @@ inline constexpr auto of<Camera> = Form{
         {.name = "--view-size", .value = "MM", .expected = "a length in millimetres, greater than 0"}),
     optional(
         "eye", &Camera::eye, lengths,
-        "Where the eye is, in place of azimuth and elevation. With a perspective it gives the size of the view, too; "
-        "a parallel view takes only its direction from it.",
+        "Where the eye is, in place of azimuth and elevation, which have no effect then. With a perspective it gives "
+        "the size of the view, too; a parallel view takes only its direction from it.",
         {.name = "--eye", .value = "X,Y,Z"}),
     optional("look_at", &Camera::look_at, lengths, "Another name of the picture's middle.",
              {.name = "--look-at", .value = "X,Y,Z"}),
@@ -154,5 +156,25 @@ inline constexpr auto of<View> = Form{
     optional("transparent", &View::transparent, flag,
              "No background: red, green, blue and alpha are 0 where a ray hits nothing.", {.name = "--transparent"}),
 };
+
+/// A member's sentence, with its bounds and with what the number stands for that means "not given".
+template <class Member, class Value>
+std::string whole_sentence(const Member& member, const Value& usual) {
+    std::string text = member.help;
+    using Kind = std::remove_cvref_t<decltype(member.kind)>;
+    std::string bounds;
+    if constexpr (std::is_same_v<Kind, Whole> || std::is_same_v<Kind, Amount>) {
+        const bool has_end = static_cast<std::uint64_t>(member.kind.high) < static_cast<std::uint64_t>(integer.high);
+        if (member.kind.low > 0 && has_end)
+            bounds = std::to_string(member.kind.low) + " to " + std::to_string(member.kind.high);
+    }
+    if constexpr (std::is_arithmetic_v<Value> && !std::is_same_v<Value, bool>) {
+        if (*member.option.absent && usual <= Value(0) && member.option.concern != Concern::picture)
+            bounds +=
+                (bounds.empty() ? "" : "; ") + std::string(usual < Value(0) ? "-1: " : "0: ") + member.option.absent;
+    }
+    if (!bounds.empty()) text += " " + bounds + ".";
+    return text;
+}
 
 }  // namespace csgrt::form

@@ -14,6 +14,7 @@
 #include "compile/lists/grid.hpp"
 #include "compile/regions/claimed_by.hpp"
 #include "device/host_memory.hpp"
+#include "form/requests.hpp"
 #include "kernel_host/geometry.hpp"
 #include "render/model_impl.hpp"
 #include "scene/range.hpp"
@@ -27,6 +28,15 @@ void check_numbers(const Settings& settings) {
         if (!std::isfinite(number))
             throw Error(Status::usage, std::string("the setting ") + name + " is " + number_text(number) +
                                            ", and must be a finite number; -1 is the default");
+    form::for_members(form::of<Settings>, [&](const auto& member) {
+        if constexpr (std::is_same_v<std::remove_cvref_t<decltype(member.kind)>, form::Amount>) {
+            const std::uint64_t number = settings.*member.at, low = member.kind.low, high = member.kind.high;
+            if (number != 0 && (number < low || number > high))
+                throw Error(Status::usage, "the setting " + std::string(member.key.member) + " is " +
+                                               std::to_string(number) + ", and must be from " + std::to_string(low) +
+                                               " to " + std::to_string(high) + ", or 0, the default");
+        }
+    });
 }
 
 double tolerance_of(const CompiledScene& scene, const Settings& settings) {
@@ -46,8 +56,6 @@ namespace {
 CompiledScene compiled(const ModelSource& source) {
     const Settings& settings = source.settings;
     check_numbers(settings);
-    if (settings.max_instances > Limits::most_instances)
-        throw Error(Status::usage, "max_instances is more than " + std::to_string(Limits::most_instances));
     return compile(*source.scene, source.objects,
                    {.air = settings.air,
                     .skip_unsupported = settings.skip_unsupported,

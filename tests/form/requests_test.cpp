@@ -101,11 +101,14 @@ std::string c_name() {
 /// C's struct as csgrt.h has it.
 template <class S>
 std::string c_struct(bool is_sized = true) {
+    const S usual_struct{};
     std::string text = "typedef struct " + c_name<S>() + " {\n" + (is_sized ? "    size_t size;\n" : "");
     form::for_members(form::of<S>, [&]<class Member>(const Member& member) {
         using Value = std::remove_cvref_t<decltype(form::member_of(member, std::declval<S&>()))>;
         if constexpr (std::is_same_v<Value, Finish>) return;  // csgrt_model_finish() gives it
-        if (*member.help) text += folded("    ///", "    ///", member.help);
+        const Value& usual = form::member_of(member, usual_struct);
+        if (const std::string sentence = form::whole_sentence(member, usual); !sentence.empty())
+            text += folded("    ///", "    ///", sentence);
         text += "    " + c_members<Value>(std::string(member.key.member)) + "\n";
     });
     return text + "} " + c_name<S>() + ";\n";
@@ -237,7 +240,9 @@ std::string default_text(const Value& value) {
     else if constexpr (std::is_integral_v<Value>)
         return std::to_string(value);
     else if constexpr (std::is_same_v<Value, Precision>)
-        return std::string(name_of(precision_names, value));
+        return std::string(name_of(every_precision, value));
+    else if constexpr (std::is_same_v<Value, Tolerance>)
+        return std::string(name_of(every_tolerance, value));
     else
         return "";
 }
@@ -253,9 +258,19 @@ std::string list(const std::string& title) {
         if constexpr (Member::given != form::Given::required)
             if (const std::string value = default_text(form::member_of(member, usual)); !value.empty())
                 line += " (" + value + ")";
-        text += folded("-", " ", line + (*member.help ? std::string(": ") + member.help : std::string()));
+        const std::string sentence = form::whole_sentence(member, form::member_of(member, usual));
+        text += folded("-", " ", line + (sentence.empty() ? "" : ": " + sentence));
     });
     return text + "\n";
+}
+
+/// A list of names with their numbers in C.
+template <class Names>
+std::string names_line(const std::string& title, const Names& names) {
+    std::string text;
+    for (const auto& [name, value] : names)
+        text += (text.empty() ? "" : ", ") + std::string(name) + " " + std::to_string(static_cast<long long>(value));
+    return folded("-", " ", title + ": " + text + ".");
 }
 
 std::string settings_page() {
@@ -263,11 +278,18 @@ std::string settings_page() {
            "The members of the structs that a caller fills or gets, in C++, C and Python, and the options of the "
            "command that set\nthem, with their defaults. This page is made of src/form/requests.hpp and "
            "src/form/answers.hpp\n(`csgrt_tests \"[.made]\"`). [command-line.md](command-line.md) has the options "
-           "that set several members\n(`--size`, `--tolerance`) or looks.\n\n" +
+           "that set several members\n(`--size`, `--tolerance`) or looks. Python has no `progress`, since Ctrl-C ends "
+           "a "
+           "call, and no `part`, since an\narray can be sliced.\n\n" +
            list<Settings>("csgrt::Settings") + list<LoadOptions>("csgrt::LoadOptions") + list<View>("csgrt::View") +
            list<Camera>("csgrt::Camera") + list<Fields>("csgrt::Fields") + list<RayRange>("csgrt::RayRange") +
            list<Slice>("csgrt::Slice") + list<RegionInfo>("csgrt::RegionInfo") + list<SolidInfo>("csgrt::SolidInfo") +
-           list<DeviceInfo>("csgrt::DeviceInfo") + list<Statistics>("csgrt::Statistics");
+           list<DeviceInfo>("csgrt::DeviceInfo") + list<Statistics>("csgrt::Statistics") +
+           "## Names and their numbers\n\n" + names_line("Precision", every_precision) +
+           names_line("Tolerance", every_tolerance) + names_line("State", state_names) +
+           names_line("Fastgen", fastgen_names) + names_line("Operator", operator_names) +
+           names_line("Channels, whose sum is what a picture has", channel_names) +
+           names_line("Status, which is the command's, too", status_names);
 }
 
 /// As a shell does, without its signs but quotes.

@@ -455,12 +455,11 @@ TEST_CASE("views: what makes no sense is refused in words", "[promise:views]") {
              c.eye = Vec3{1e19, 0, 0};
          },
          "the place of the eye is 1e+19"},
-        {[](Camera& c) { c.center = c.look_at = Vec3{}; },
-         "the centre of the view and the point that it looks at are one"},
+        {[](Camera& c) { c.center = c.look_at = Vec3{}; }, "look_at cannot be combined with center"},
         {[](Camera& c) {
              c.perspective = 30, c.view_size = 5, c.eye = Vec3{500, 0, 0};
          },
-         "leave one of the three out"},
+         "view_size cannot be combined with eye"},
         {[](Camera& c) {
              c.eye = Vec3{0, 0, 500}, c.up = Vec3{0, 0, -2};
          },

@@ -75,7 +75,8 @@ TEST_CASE("limits: instances", "[promise:limits]") {
     CHECK(found(19'999, 1'001, Limits::most_instances) == 1);
     CHECK(refusal(balls(1, 2), on_reference(1'002)).empty());
     CHECK(says(refusal(balls(1, 3), on_reference(1'002)), "'top' expands to 1003 instances; at most 1002 are allowed"));
-    CHECK(says(refusal(balls(1, 1), on_reference(Limits::most_instances + 1)), "max_instances is more than 20000000"));
+    CHECK(says(refusal(balls(1, 1), on_reference(Limits::most_instances + 1)),
+               "the setting max_instances is 20000001, and must be from 1 to 20000000"));
 }
 
 TEST_CASE("limits: solids of many parts count as docs/limits.md says", "[promise:limits]") {
