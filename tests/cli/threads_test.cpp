@@ -2,13 +2,26 @@
 #include "cli/fail_each.hpp"
 
 using namespace command_test;
+using csgrt::test::all_faults, csgrt::test::some_faults;
+
+namespace {
+
+void lack_threads(unsigned long step) {
+    NEEDS_COMMAND();
+    fail_each("CSGRT_FAIL_THREAD", step, false, {5, 6, 7});
+#ifdef CSGRT_HAVE_IMAGE
+    fail_each("CSGRT_FAIL_THREAD", step, true, {5, 6, 7});
+#endif
+}
+
+}  // namespace
 
 TEST_CASE("a thread that is not to be had changes no answer, or the command says what it lacks", "[promise:failures]") {
-    NEEDS_COMMAND();
-    fail_each("CSGRT_FAIL_THREAD", 1, false, {5, 6, 7});
-#ifdef CSGRT_HAVE_IMAGE
-    fail_each("CSGRT_FAIL_THREAD", 1, true, {5, 6, 7});
-#endif
+    lack_threads(some_faults);
+}
+
+TEST_CASE("each thread that is not to be had changes no answer, or the command says what it lacks", "[.faults]") {
+    lack_threads(all_faults);
 }
 
 #ifdef CSGRT_HAVE_IMAGE
@@ -21,7 +34,9 @@ TEST_CASE("threads that libraries do not get while they are loaded: the right an
 }
 #endif
 
-TEST_CASE("a thread that PoCL does not get is the answer or status 7, and a sentence", "[promise:failures]") {
+namespace {
+
+void lack_threads_in_pocl(unsigned long step) {
     NEEDS_COMMAND();
     const char* library = std::getenv("CSGRT_FAIL_LIBRARY");
     if (library == nullptr || !contains(run({"devices"}).out, "Portable Computing Language")) {
@@ -30,9 +45,10 @@ TEST_CASE("a thread that PoCL does not get is the answer or status 7, and a sent
     }
     const Folder folder;
     const std::string scene = folder.write("balls.asc", two_balls), told = folder / "told";
+    csgrt::test::FaultDraw draw(step);
     int refused = 0;
     for (const bool on : {false, true})
-        for (int number = 1;; ++number) {
+        for (unsigned long number = draw.first();; number += step) {
             How how;
             how.environment = {{"LD_PRELOAD", library},
                                {"POCL_CACHE_DIR", folder / "cache"},
@@ -50,5 +66,15 @@ TEST_CASE("a thread that PoCL does not get is the answer or status 7, and a sent
                 CHECK(contains(result.err, "csgrt: error: "));
             }
         }
-    CHECK(refused > 0);
+    if (step == all_faults) CHECK(refused > 0);
+}
+
+}  // namespace
+
+TEST_CASE("a thread that PoCL does not get is the answer or status 7, and a sentence", "[promise:failures]") {
+    lack_threads_in_pocl(some_faults);
+}
+
+TEST_CASE("each thread that PoCL does not get is the answer or status 7, and a sentence", "[.faults]") {
+    lack_threads_in_pocl(all_faults);
 }
