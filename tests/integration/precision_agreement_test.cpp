@@ -69,7 +69,7 @@ TEST_CASE("device and reference agree in single precision on our scenes", "[agre
     require_scenes(in_single(), false);
 }
 
-TEST_CASE("device and reference agree in single precision on rays that methods fail on", "[agreement]") {
+TEST_CASE("device and reference agree in single precision on rays that methods fail on", "[.pocl][agreement]") {
     require_hard_rays(in_single());
 }
 
