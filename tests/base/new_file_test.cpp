@@ -1,8 +1,6 @@
 // Files that a process left which was killed, and those of others that write the same place at once.
 #include <atomic>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <thread>
 #include <vector>
 

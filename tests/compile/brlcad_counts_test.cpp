@@ -1,6 +1,5 @@
 // BRL-CAD's own models: as many solids and regions as its library counts, the same paths, the same box.
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>

@@ -1,5 +1,4 @@
 // What half-spaces leave of regions' trees and of solids, before solids are numbered; and which solids rays meet.
-#include <algorithm>
 
 #include "catch.hpp"
 #include "compile/bounds/instance_bounds.hpp"

@@ -1,7 +1,6 @@
 // A program that uses csgrt and forks. Each case has a process of its own, which forks again.
 #include <atomic>
 #include <cstring>
-#include <filesystem>
 #include <thread>
 #include <utility>
 

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <atomic>
 #include <clocale>
-#include <fstream>
 #include <functional>
 #include <future>
 #include <locale>

@@ -65,7 +65,7 @@ void require_hard_rays(Settings settings) {
 
 }  // namespace
 
-TEST_CASE("device and reference agree in single precision on our scenes", "[agreement][promise:bits]") {
+TEST_CASE("device and reference agree in single precision on our scenes", "[.pocl][agreement][promise:bits]") {
     require_scenes(in_single(), false);
 }
 

@@ -1,8 +1,6 @@
 // Valid scenes made at random: solids of every type, from a hundredth to 10^5 millimetres and some far larger or
 // smaller, in trees of all operators, combinations in combinations, regions anywhere. The device gives the reference's
 // bits, and the 113-bit answer judges a sample.
-#include <algorithm>
-#include <cmath>
 #include <cstdlib>
 #include <optional>
 

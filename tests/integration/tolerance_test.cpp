@@ -1,5 +1,4 @@
 // Which ends of segments along a ray are one, by each rule: surfaces that coincide, and ends that are close.
-#include <cmath>
 #include <string>
 #include <vector>
 

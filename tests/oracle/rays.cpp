@@ -150,6 +150,35 @@ Features features_of(const Shape& shape, const ImplicitSolid& solid) {
     return features;
 }
 
+Ray edge_ray(const Features& features, const quad& size, Random& random) {
+    const auto pick = [&](const std::vector<QVec>& from) -> const QVec& { return from[random.below(from.size())]; };
+    QVec p = pick(features.points);
+    if (random.coin()) {
+        const QVec way = pick(features.points) - p;
+        p = p + quad(random.unit()) * way;
+    }
+    QVec d;
+    switch (random.below(4)) {
+        case 0:
+            d = pick(features.points) - p;
+            break;
+        case 1:
+            d = random.axis();
+            break;
+        case 2:
+            d = random.direction();
+            break;
+        default:
+            d = pick(features.directions);
+    }
+    if (!(dot(d, d) > 0)) d = random.axis();
+    d = unit(d);
+    if (random.coin()) p = p + random.offset(-12, -1, size);
+    if (random.below(4) == 0) d = unit(d + random.offset(-12, -1));
+    const quad sign = random.sign();
+    return {to_vec3(p - quad(random.between(-1, 5)) * size * d), to_vec3(sign * d)};
+}
+
 RayMaker::RayMaker(const Shape& shape, const ImplicitSolid& solid, Random& random)
     : solid_(solid),
       features_(features_of(shape, solid)),
@@ -168,7 +197,7 @@ Ray RayMaker::make(RayFamily family) {
         case RayFamily::tangent:
             return tangent();
         case RayFamily::edge:
-            return edge();
+            return edge_ray(features_, size(), random_);
         case RayFamily::parallel:
             return parallel();
         case RayFamily::far:
@@ -206,7 +235,7 @@ Ray RayMaker::any() {
         case 0:
             return tangent();
         case 1:
-            return edge();
+            return edge_ray(features_, size(), random_);
         default:
             return ordinary(3);
     }
@@ -223,34 +252,6 @@ Ray RayMaker::tangent() {
     if (!solid_.bounded) d = unit(d + quad(random_.signed_power(-12, 0)) * t.normal);
     const QVec p = t.point + quad(random_.signed_power(-12, -3)) * size() * t.normal;
     return rounded(p - quad(random_.between(0, 5)) * size() * d, d);
-}
-
-Ray RayMaker::edge() {
-    QVec p = random_point();
-    if (random_.coin()) {
-        const QVec way = random_point() - p;
-        p = p + quad(random_.unit()) * way;
-    }
-    QVec d;
-    switch (random_.below(4)) {
-        case 0:
-            d = random_point() - p;
-            break;
-        case 1:
-            d = random_.axis();
-            break;
-        case 2:
-            d = random_.direction();
-            break;
-        default:
-            d = features_.directions[random_.below(features_.directions.size())];
-    }
-    if (!(dot(d, d) > 0)) d = random_.axis();
-    d = unit(d);
-    if (random_.coin()) p = p + random_.offset(-12, -1, size());
-    if (random_.below(4) == 0) d = unit(d + random_.offset(-12, -1));
-    const quad sign = random_.sign();
-    return rounded(p - quad(random_.between(-1, 5)) * size() * d, sign * d);
 }
 
 Ray RayMaker::parallel() {

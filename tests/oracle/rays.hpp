@@ -22,6 +22,9 @@ struct Features {
 
 Features features_of(const Shape& shape, const ImplicitSolid& solid);
 
+/// Through corners, along edges, generators and axes, or a hair beside them.
+Ray edge_ray(const Features& features, const quad& size, Random& random);
+
 /// Makes rays at one solid.
 class RayMaker {
 public:
@@ -52,8 +55,6 @@ private:
     /// Grazes a point of the surface within 1e-3 to 1e-12 of the size, on either
     /// side.
     Ray tangent();
-    /// Through corners, along edges, generators and axes, or a hair beside them.
-    Ray edge();
     /// Exact zeros in the direction, and parallel to a feature's direction.
     Ray parallel();
     Ray inside();

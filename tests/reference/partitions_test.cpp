@@ -1,8 +1,6 @@
 // Whole scenes through the reference, before the oracle of point membership.
 #include "catch.hpp"
 
-#include <filesystem>
-
 #include <csgrt/csgrt.hpp>
 
 #include "oracle/random.hpp"

@@ -3,7 +3,6 @@
 #include "integration/lists.hpp"
 
 #include <cmath>
-#include <limits>
 
 #include <csgrt/csgrt.hpp>
 

@@ -1,8 +1,6 @@
 // Calls of the API in random order, with good arguments and bad ones: each answers as a new Renderer's first call
 // would, or throws an Error and changes nothing.
-#include <cmath>
 #include <limits>
-#include <map>
 #include <memory>
 
 #include "catch.hpp"

@@ -1,7 +1,6 @@
 // The corners of intersected half-spaces: counts and places known from geometry.
 #include "catch.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <random>
 

@@ -2,7 +2,6 @@
 #include "catch.hpp"
 
 #include <cmath>
-#include <limits>
 
 #include "scene/solids/sketch_curves.hpp"
 #include "scene/faults/solids.hpp"

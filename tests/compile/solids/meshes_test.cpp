@@ -1,7 +1,4 @@
 // Solids that triangles make, as they are packed: shared by their places, boxed tightly, and what is not closed.
-#include <limits>
-#include <memory>
-#include <random>
 
 #include <csgrt/csgrt.hpp>
 

@@ -3,7 +3,6 @@
 #include <unistd.h>
 
 #include <filesystem>
-#include <fstream>
 
 #include "folder.hpp"
 #include "formats/brlcad/brlcad_asc_text.hpp"

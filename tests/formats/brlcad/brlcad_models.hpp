@@ -1,7 +1,6 @@
 // BRL-CAD's own models, which stand beside the checkout, and what is in them.
 #pragma once
 
-#include <cstdlib>
 #include <filesystem>
 #include <map>
 #include <string>

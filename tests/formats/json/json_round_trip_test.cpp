@@ -2,10 +2,8 @@
 #include "catch.hpp"
 
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <limits>
-#include <random>
 
 #include <csgrt/scene_io.hpp>
 

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <tuple>
 #include <filesystem>
-#include <fstream>
 #include <sstream>
 
 #include "catch.hpp"

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "integration/field/judge.hpp"
 #include "kernels/geometry/kernel_answer.hpp"

@@ -2,8 +2,6 @@
 // and of none whose walls merely share a plane (sides of length 0, spurs, shared corners, holes on the outline, cells).
 #include "catch.hpp"
 
-#include <cmath>
-
 #include "integration/field/judge.hpp"
 #include "scene/warning_texts.hpp"
 #include "stress/build.hpp"

@@ -41,7 +41,7 @@ public:
             case RayFamily::tangent:
                 return tangent();
             case RayFamily::edge:
-                return edge();
+                return edge_ray(case_.features, size(), random_);
             case RayFamily::parallel: {
                 QVec d = random_.coin() ? random_.axis() : pick(case_.features.directions);
                 if (random_.below(4) == 0) {
@@ -55,7 +55,9 @@ public:
             case RayFamily::far:
                 return ordinary(1e5);
             case RayFamily::scaled: {
-                const Ray ray = random_.coin() ? tangent() : random_.coin() ? edge() : ordinary(3);
+                const Ray ray = random_.coin()   ? tangent()
+                                : random_.coin() ? edge_ray(case_.features, size(), random_)
+                                                 : ordinary(3);
                 return rounded(ray.origin, quad(random_.power(-6, 6)) * QVec(ray.direction));
             }
             case RayFamily::inside: {
@@ -98,34 +100,6 @@ private:
         const QVec d = quad(std::cos(turn)) * across + quad(std::sin(turn)) * other;
         const QVec p = t.point + quad(random_.signed_power(-12, -3)) * size() * t.normal;
         return rounded(p - quad(random_.between(0, 5)) * size() * d, d);
-    }
-    /// Through corners, along edges, or a hair beside them.
-    Ray edge() {
-        QVec p = pick(case_.features.points);
-        if (random_.coin()) {
-            const QVec way = pick(case_.features.points) - p;
-            p = p + quad(random_.unit()) * way;
-        }
-        QVec d;
-        switch (random_.below(4)) {
-            case 0:
-                d = pick(case_.features.points) - p;
-                break;
-            case 1:
-                d = random_.axis();
-                break;
-            case 2:
-                d = random_.direction();
-                break;
-            default:
-                d = pick(case_.features.directions);
-        }
-        if (!(dot(d, d) > 0)) d = random_.axis();
-        d = unit(d);
-        if (random_.coin()) p = p + random_.offset(-12, -1, size());
-        if (random_.below(4) == 0) d = unit(d + random_.offset(-12, -1));
-        const quad sign = random_.sign();
-        return rounded(p - quad(random_.between(-1, 5)) * size() * d, sign * d);
     }
 
     const OutlineCase& case_;

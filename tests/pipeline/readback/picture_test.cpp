@@ -1,7 +1,6 @@
 // Tiles of pixels put into planes, in both ways in which memory is written.
 #include "pipeline/readback/picture.hpp"
 
-#include <algorithm>
 #include <vector>
 
 #include "catch.hpp"

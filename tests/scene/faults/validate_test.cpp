@@ -1,7 +1,6 @@
 // Scenes as a program may build them: what validate finds, where it looks, and what it costs.
 #include "catch.hpp"
 
-#include <chrono>
 #include <limits>
 
 #include "scene/make_scene.hpp"

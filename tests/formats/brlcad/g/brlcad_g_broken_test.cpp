@@ -1,5 +1,4 @@
 // Binary databases that are wrong: what is found, where, and that nothing else happens.
-#include <filesystem>
 #include <limits>
 
 #include "formats/brlcad/brlcad_asc_text.hpp"
