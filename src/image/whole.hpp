@@ -1,15 +1,15 @@
-// Wholeness: whether a picture that OpenImageIO has written is complete. If memory runs out, it may leave a picture
-// unfinished without an error.
+// Whether an EXR that OpenImageIO has written is all there: where memory ends, it may leave rows or attributes out and
+// report nothing.
 #pragma once
 
 #include <span>
-#include <string>
+
+#include <csgrt/image.hpp>
 
 namespace csgrt {
 
-/// Whether a file is complete. `format` is "exr" (compressed as zip) or "png". True if every row stands where the
-/// file's own table says (EXR), or its chunks follow each other to the last (PNG). The contents of the rows are not
-/// decoded.
-bool is_whole(std::span<const unsigned char> file, const std::string& format, int height);
+/// `exr`: the file, compressed as zip. True if the header has the picture's matrices and csgrt's own attributes, and
+/// every row stands where the file's table of offsets says. What stands in the rows is not decoded.
+bool is_whole(std::span<const unsigned char> exr, const Image& image);
 
 }  // namespace csgrt
