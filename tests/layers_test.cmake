@@ -1,17 +1,19 @@
 # Keeps the layers: who may include what. cmake -DROOT=... -P layers_test.cmake
-#     cli -> render -> pipeline, reference -> compile, device -> native -> scene, formats -> form, kernel_host, base
+#     cli -> render -> pipeline, reference -> rays -> compile, device -> native -> scene, formats
+#         -> form, kernel_host, base
 # A file includes its own folder and what stands to the right. kernels/ never includes src/. Public headers include
 # the standard library and each other. Each outside library is used in its own folders alone.
 cmake_minimum_required(VERSION 3.25)
 
 set(below_compile scene formats)
-set(below_pipeline compile device native ${below_compile})
+set(below_pipeline rays compile device native ${below_compile})
 # Of image it sees functions.hpp, by which it is loaded late; else what every program sees: the public
 # headers.
 set(may_cli scene image)
 set(may_render pipeline reference ${below_pipeline})
 set(may_pipeline ${below_pipeline})
-set(may_reference compile ${below_compile})
+set(may_reference rays compile ${below_compile})
+set(may_rays compile ${below_compile})
 set(may_compile ${below_compile})
 set(may_device native ${below_compile})
 set(may_native device scene)  # one layer with device: it fills the table of functions that device calls

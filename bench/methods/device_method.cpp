@@ -5,14 +5,14 @@
 #include <mutex>
 
 #include "base/laboratory.hpp"
-#include "compile/frame.hpp"
-#include "compile/lists/along_rays.hpp"
-#include "compile/lists/ray_list.hpp"
 #include "device/choice.hpp"
 #include "pipeline/passes/batch_buffers.hpp"
 #include "pipeline/passes/partitions.hpp"
 #include "pipeline/passes/scene_tables.hpp"
 #include "ray_events.hpp"
+#include "rays/along.hpp"
+#include "rays/frame.hpp"
+#include "rays/list.hpp"
 #include "reference/reference_kernels.hpp"
 
 namespace csgrt {

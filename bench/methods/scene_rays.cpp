@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "compile/frame.hpp"
 #include "compile/linear.hpp"
 #include "compile/tables.hpp"
+#include "rays/frame.hpp"
 
 namespace csgrt::bench {
 namespace {

@@ -152,19 +152,6 @@ dvec3 light_by_eye(const Surroundings& model, const Axes& axes, dvec3 eye, doubl
     return glm::mix(light_of_model(model, axes), at - (distance - near) * axes.back, near / distance);
 }
 
-void fill_scene(const CompiledScene& scene, double tolerance, kernel::Frame& frame) {
-    put(to_glm(scene.center), frame.center);
-    frame.radius = scene.radius;
-    frame.tolerance = tolerance < 0 ? scene.tolerance : tolerance;
-    frame.ambient = scene.ambient;
-    frame.unbounded_count = scene.unbounded_count;
-    frame.node_count = static_cast<std::uint32_t>(scene.nodes.size());
-    frame.every_partition = 1;
-    frame.whole_lines = (scene.solid_types >> SOLID_PLATE & 1u) != 0;
-    std::copy(std::begin(scene.rank_ends), std::end(scene.rank_ends), std::begin(frame.rank_ends));
-    frame.candidate_capacity = frame.segment_capacity = frame.word_capacity = COUNT_MAX;
-}
-
 void put_clip(const CompiledScene& scene, const std::vector<Plane>& planes, kernel::Frame& frame) {
     if (planes.size() > MOST_CLIPS) refuse("a view has at most " + std::to_string(MOST_CLIPS) + " planes");
     frame.clip_count = static_cast<std::uint32_t>(planes.size());
@@ -178,6 +165,19 @@ void put_clip(const CompiledScene& scene, const std::vector<Plane>& planes, kern
 }
 
 }  // namespace
+
+void put_scene(const CompiledScene& scene, double tolerance, kernel::Frame& frame) {
+    put(to_glm(scene.center), frame.center);
+    frame.radius = scene.radius;
+    frame.tolerance = tolerance < 0 ? scene.tolerance : tolerance;
+    frame.ambient = scene.ambient;
+    frame.unbounded_count = scene.unbounded_count;
+    frame.node_count = static_cast<std::uint32_t>(scene.nodes.size());
+    frame.every_partition = 1;
+    frame.whole_lines = (scene.solid_types >> SOLID_PLATE & 1u) != 0;
+    std::copy(std::begin(scene.rank_ends), std::end(scene.rank_ends), std::begin(frame.rank_ends));
+    frame.candidate_capacity = frame.segment_capacity = frame.word_capacity = COUNT_MAX;
+}
 
 Box framing_box(const CompiledScene& scene) {
     dvec3 low = to_glm(scene.bounds.low), high = to_glm(scene.bounds.high);
@@ -231,7 +231,7 @@ PreparedFrame prepare_frame(const CompiledScene& scene, const View& view, double
     const double pixel = result.view_size / view.height;
 
     kernel::Frame& frame = result.frame;
-    fill_scene(scene, tolerance, frame);
+    put_scene(scene, tolerance, frame);
     put(eye, frame.eye);
     // The steps are all exact. So each ray is the whole view's, to the last bit, unless it is moved by a part of a
     // pixel.
@@ -272,17 +272,6 @@ PreparedFrame prepare_frame(const CompiledScene& scene, const View& view, double
     result.up = from_glm(axes.up);
     result.back = from_glm(axes.back);
     result.center = from_glm(center);
-    return result;
-}
-
-PreparedFrame prepare_rays(const CompiledScene& scene, std::uint32_t count, double tolerance) {
-    PreparedFrame result;
-    fill_scene(scene, tolerance, result.frame);
-    result.frame.work = WORK_RAYS;
-    result.frame.t_min = -std::numeric_limits<double>::infinity();
-    result.frame.width = count;
-    result.frame.height = 1;
-    result.rays = count;
     return result;
 }
 

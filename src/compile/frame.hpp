@@ -32,8 +32,8 @@ struct Sampling {
 PreparedFrame prepare_frame(const CompiledScene& scene, const View& view, double tolerance = -1,
                             const Sampling& sampling = {});
 
-/// Prepares the frame of a list of rays: no camera, no lights, everything along the whole line.
-PreparedFrame prepare_rays(const CompiledScene& scene, std::uint32_t count, double tolerance = -1);
+/// Puts in what the frame of every view or list has of a scene. A negative `tolerance` means the scene's.
+void put_scene(const CompiledScene& scene, double tolerance, kernel::Frame& frame);
 
 /// The model's box for BRL-CAD's default view: rounded outward to whole millimetres (at least one millimetre of
 /// diagonal).

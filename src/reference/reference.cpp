@@ -6,10 +6,10 @@
 #include <mutex>
 
 #include "base/parallel.hpp"
-#include "compile/lists/grid.hpp"
-#include "compile/lists/overlaps.hpp"
 #include "compile/flatten/attributes.hpp"
 #include "kernel_host/geometry.hpp"
+#include "rays/grid.hpp"
+#include "rays/overlaps.hpp"
 #include "reference/precision/double_fma.hpp"
 
 namespace csgrt {

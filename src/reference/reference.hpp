@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "base/watch.hpp"
-#include "compile/lists/ray_list.hpp"
-#include "compile/lists/row_receivers.hpp"
 #include "compile/frame.hpp"
+#include "rays/list.hpp"
+#include "rays/row_receivers.hpp"
 #include "reference/reference_kernels.hpp"
 
 namespace csgrt {

@@ -8,7 +8,7 @@
 
 #include "base/laboratory.hpp"
 #include "compile/host_kernels.hpp"
-#include "compile/lists/rows.hpp"
+#include "rays/rows.hpp"
 #include "reference/near_solids.hpp"
 #include "reference/weave.hpp"
 

@@ -12,10 +12,10 @@
 
 #include "base/watch.hpp"
 #include "compile/frame.hpp"
-#include "compile/lists/ray_list.hpp"
-#include "compile/lists/row_receivers.hpp"
 #include "pipeline/readback/registered_memory.hpp"
 #include "pipeline/readback/picture.hpp"
+#include "rays/list.hpp"
+#include "rays/row_receivers.hpp"
 #include "reference/reference_kernels.hpp"
 #include "render/channel_table.hpp"
 

@@ -10,12 +10,14 @@
 #include "base/thread.hpp"
 #include "compile/frame.hpp"
 #include "compile/linear.hpp"
-#include "compile/lists/along_rays.hpp"
-#include "compile/lists/grid.hpp"
 #include "compile/regions/claimed_by.hpp"
 #include "device/host_memory.hpp"
 #include "form/requests.hpp"
 #include "kernel_host/geometry.hpp"
+#include "rays/along.hpp"
+#include "rays/calls.hpp"
+#include "rays/frame.hpp"
+#include "rays/grid.hpp"
 #include "render/model_impl.hpp"
 #include "scene/range.hpp"
 #include "scene/vector.hpp"
@@ -142,10 +144,7 @@ const Reference& CallerTracer::reference() const {
 }
 
 void CallerTracer::trace(const RayList& list, RowReceiver& receiver) const {
-    kernel::Frame frame = prepare_rays(scene_, static_cast<std::uint32_t>(list.size()), tolerance_).frame;
-    frame.first_row = receiver.first_row();
-    if (list.is_grid()) list.put_camera(frame);
-    list.put_planes(frame);
+    const kernel::Frame frame = frame_of(scene_, list, receiver, tolerance_);
     if (const NativeTracer* const tracer = native()) {
         PipelineCounts counts;
         tracer->trace(frame, list, 0, list.size(), nullptr, receiver, counts);
@@ -169,12 +168,12 @@ Pick Model::pick(const View& view, int column, int row) const {
     const auto [o, d] = pick.ray;
     const kernel::view_range range = kernel::range_in_view(&frame, {{o.x, o.y, o.z}, {d.x, d.y, d.z}});
     const std::uint32_t seen_end = impl_->scene.rank_ends[RANK_AIR];  // behind it: lights that no picture shows
-    impl_->call([&](const TraceList& trace) {
+    impl_->call([&](const ListTracer& tracer) {
         RayList list(pick.ray, {.all = whole_line});
         const auto along = [&](ClaimingRegions claims) {
             Partitions all;
             RowCollector receiver(all, all_fields, 1);
-            trace(list, receiver, claims);
+            tracer.trace(list, receiver, claims);
             return std::move(along_rays(all).front());
         };
         pick.along = along(ClaimingRegions::all);
@@ -197,23 +196,23 @@ Pick Model::pick(const View& view, int column, int row) const {
 }
 
 void Model::partitions(const Rays& rays, Partitions& answer, Fields fields, const RayRanges& ranges) const {
-    impl_->call([&](const TraceList& trace) { find_partitions(RayList(rays, ranges), answer, fields, trace); });
+    impl_->call([&](const ListTracer& tracer) { find_partitions(RayList(rays, ranges), answer, fields, tracer); });
 }
 
 void Model::cast_rays(const Rays& rays, Hits& answer, Fields fields, const RayRanges& ranges) const {
-    impl_->call([&](const TraceList& trace) { find_hits(RayList(rays, ranges), answer, fields, trace); });
+    impl_->call([&](const ListTracer& tracer) { find_hits(RayList(rays, ranges), answer, fields, tracer); });
 }
 
 void Model::occluded(const Rays& rays, Array<std::uint8_t>& answer, const RayRanges& ranges) const {
-    impl_->call([&](const TraceList& trace) { find_occluded(RayList(rays, ranges), answer, trace); });
+    impl_->call([&](const ListTracer& tracer) { find_occluded(RayList(rays, ranges), answer, tracer); });
 }
 
 void Model::region_at(std::span<const Vec3> points, Array<std::int32_t>& answer) const {
-    impl_->call([&](const TraceList& trace) { find_regions(points, answer, trace); });
+    impl_->call([&](const ListTracer& tracer) { find_regions(points, answer, tracer); });
 }
 
 void Model::slice(const Slice& slice, Array<std::int32_t>& answer) const {
-    impl_->call([&](const TraceList& trace) { find_pixels(slice, answer, trace); });
+    impl_->call([&](const ListTracer& tracer) { find_pixels(slice, answer, tracer); });
 }
 
 }  // namespace csgrt

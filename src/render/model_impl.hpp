@@ -14,8 +14,8 @@
 #include "base/thread.hpp"
 #include "compile/compiled_scene.hpp"
 #include "pipeline/passes/native_tracer.hpp"
+#include "rays/calls.hpp"
 #include "reference/reference.hpp"
-#include "render/list_calls.hpp"
 
 namespace csgrt {
 
@@ -61,7 +61,7 @@ struct ModelSource {
 
 /// The scene, its compiled forms, and the tracers of the caller's thread. If pictures do not show some regions, there
 /// are two more compiled forms, in which only the shown regions or only the ghosts claim; they share nearly all tables.
-struct Model::Impl {
+struct Model::Impl final : ListTracer {
     ModelSource source;
     CompiledScene scene;  ///< all its regions claim
     double tolerance;     ///< millimetres, in double precision
@@ -81,14 +81,15 @@ struct Model::Impl {
     }
     bool has_ghosts() const { return some_ghosts.has_value(); }
 
-    /// Calls work(trace), which computes on the caller's thread.
+    void trace(const RayList& list, RowReceiver& receiver, ClaimingRegions claims) const override {
+        (claims == ClaimingRegions::shown && some_shown ? *shown_ : *all_).trace(list, receiver);
+    }
+    /// Calls work(tracer), which computes on the caller's thread.
     template <class Work>
     void call(const Work& work) const {
         const FloatingPoint own;
         const AllowedThreads alone(1);
-        work([this](const RayList& list, RowReceiver& receiver, ClaimingRegions claims) {
-            (claims == ClaimingRegions::shown && some_shown ? *shown_ : *all_).trace(list, receiver);
-        });
+        work(*this);
     }
 
 private:

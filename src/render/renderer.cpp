@@ -4,10 +4,12 @@
 
 #include "base/laboratory.hpp"
 #include "base/thread.hpp"
-#include "compile/lists/along_rays.hpp"
 #include "device/choice.hpp"
 #include "device/device_plan.hpp"
 #include "device/driver_call.hpp"
+#include "rays/along.hpp"
+#include "rays/calls.hpp"
+#include "rays/frame.hpp"
 #include "render/device_backend.hpp"
 #include "render/reference_backend.hpp"
 #include "render/renderer_impl.hpp"
@@ -171,6 +173,19 @@ Renderer::~Renderer() = default;
 Renderer::Renderer(Renderer&&) noexcept = default;
 Renderer& Renderer::operator=(Renderer&&) noexcept = default;
 
+/// The tracer of one call.
+class Renderer::Impl::WatchedTracer final : public ListTracer {
+public:
+    WatchedTracer(Impl& impl, Watch& watch) : impl_(impl), watch_(watch) {}
+    void trace(const RayList& list, RowReceiver& receiver, ClaimingRegions claims) const override {
+        impl_.trace(list, receiver, claims, watch_);
+    }
+
+private:
+    Impl& impl_;
+    Watch& watch_;
+};
+
 template <class Work>
 void Renderer::Impl::call(const Work& work, std::uint64_t all) {
     const FloatingPoint own;
@@ -178,9 +193,7 @@ void Renderer::Impl::call(const Work& work, std::uint64_t all) {
     Watch::over(own.of_host(settings.progress), [&](Watch& watch) {
         take_next();
         if (all > 0) watch.begin_all(all);
-        work([&](const RayList& list, RowReceiver& receiver, ClaimingRegions claims) {
-            trace(list, receiver, claims, watch);
-        });
+        work(WatchedTracer(*this, watch));
     });
 }
 
@@ -193,7 +206,7 @@ std::vector<RayPartitions> Renderer::shoot(const std::vector<Ray>& rays) {
 }
 
 void Renderer::partitions(const Rays& rays, Partitions& answer, Fields fields, const RayRanges& ranges) {
-    impl().call([&](const TraceList& trace) { find_partitions(RayList(rays, ranges), answer, fields, trace); });
+    impl().call([&](const ListTracer& tracer) { find_partitions(RayList(rays, ranges), answer, fields, tracer); });
 }
 
 void Renderer::partitions(const Rays& rays, const std::function<bool(const Partitions&, std::uint64_t)>& take,
@@ -201,12 +214,12 @@ void Renderer::partitions(const Rays& rays, const std::function<bool(const Parti
     if (most == 0) throw Error(Status::usage, "a batch must have one ray at least");
     const FloatingPoint own;
     const auto takes = own.of_host(take);
-    const auto shoot_batches = [&](const TraceList& trace) {
+    const auto shoot_batches = [&](const ListTracer& tracer) {
         const RayList list(rays, ranges);
         Partitions answer;
         bool goes_on = true;
         for (std::uint64_t first = 0; first < list.size() && goes_on; first += most) {
-            find_partitions(list.part(first, std::min(most, list.size() - first)), answer, fields, trace);
+            find_partitions(list.part(first, std::min(most, list.size() - first)), answer, fields, tracer);
             goes_on = takes(answer, first);
         }
     };
@@ -214,26 +227,24 @@ void Renderer::partitions(const Rays& rays, const std::function<bool(const Parti
 }
 
 void Renderer::cast_rays(const Rays& rays, Hits& answer, Fields fields, const RayRanges& ranges) {
-    impl().call([&](const TraceList& trace) { find_hits(RayList(rays, ranges), answer, fields, trace); });
+    impl().call([&](const ListTracer& tracer) { find_hits(RayList(rays, ranges), answer, fields, tracer); });
 }
 
 void Renderer::occluded(const Rays& rays, Array<std::uint8_t>& answer, const RayRanges& ranges) {
-    impl().call([&](const TraceList& trace) { find_occluded(RayList(rays, ranges), answer, trace); });
+    impl().call([&](const ListTracer& tracer) { find_occluded(RayList(rays, ranges), answer, tracer); });
 }
 
 void Renderer::region_at(std::span<const Vec3> points, Array<std::int32_t>& answer) {
-    impl().call([&](const TraceList& trace) { find_regions(points, answer, trace); });
+    impl().call([&](const ListTracer& tracer) { find_regions(points, answer, tracer); });
 }
 
 void Renderer::slice(const Slice& slice, Array<std::int32_t>& answer) {
-    impl().call([&](const TraceList& trace) { find_pixels(slice, answer, trace); });
+    impl().call([&](const ListTracer& tracer) { find_pixels(slice, answer, tracer); });
 }
 
 void Renderer::Impl::trace(const RayList& list, RowReceiver& receiver, ClaimingRegions claims, Watch& watch) {
     const auto start = Clock::now();
-    kernel::Frame frame = prepare_rays(scene(), static_cast<std::uint32_t>(list.size()), tolerance).frame;
-    frame.first_row = receiver.first_row();
-    if (list.is_grid()) list.put_camera(frame);
+    const kernel::Frame frame = frame_of(scene(), list, receiver, tolerance);
     start_call(list.size(), true, 0, 0);
     prepare(true, claims);
     backend->trace(frame, list, receiver, watch);

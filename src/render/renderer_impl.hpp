@@ -59,7 +59,8 @@ struct Renderer::Impl {
     std::uint32_t word_of(const float (&color)[4]) const;
     void render(const View& view, Framebuffer& framebuffer, const std::function<bool(int)>& coarse, Watch& watch);
     void trace(const RayList& list, RowReceiver& receiver, ClaimingRegions claims, Watch& watch);
-    /// Calls work(trace) as a call of the host's. `all`: the number of rays of the several lists that it traces; 0: it
+    class WatchedTracer;
+    /// Calls work(tracer) as a call of the host's. `all`: the number of rays of the several lists that it traces; 0: it
     /// traces one.
     template <class Work>
     void call(const Work& work, std::uint64_t all = 0);

@@ -3,12 +3,12 @@
 
 #include <vector>
 
-#include "compile/lists/along_rays.hpp"
-#include "compile/lists/ray_list.hpp"
-#include "compile/lists/row_receivers.hpp"
 #include "device/discovery.hpp"
 #include "native/driver.hpp"
 #include "pipeline/passes/partitions.hpp"
+#include "rays/along.hpp"
+#include "rays/list.hpp"
+#include "rays/row_receivers.hpp"
 #include "reference/reference.hpp"
 
 namespace csgrt::test {

@@ -6,13 +6,13 @@
 
 #include <csgrt/csgrt.hpp>
 
-#include "compile/frame.hpp"
 #include "kernels/geometry/kernel_answer.hpp"
 #include "oracle/random.hpp"
 #include "oracle/rays.hpp"
 #include "oracle/scene_oracle.hpp"
 #include "oracle/solids/all.hpp"
 #include "integration/scenes.hpp"
+#include "rays/frame.hpp"
 #include "reference/reference_kernels.hpp"
 #include "thrown.hpp"
 

@@ -7,8 +7,8 @@
 #include <stdexcept>
 
 #include "base/clock.hpp"
-#include "compile/lists/overlaps.hpp"
 #include "pipeline/passes/first_hits.hpp"
+#include "rays/overlaps.hpp"
 
 namespace csgrt {
 namespace kernel {

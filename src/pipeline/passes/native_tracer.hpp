@@ -7,11 +7,11 @@
 #include <span>
 #include <vector>
 
-#include "compile/lists/ray_list.hpp"
-#include "compile/lists/row_receivers.hpp"
 #include "compile/regions/status_tree.hpp"
 #include "native/kernels.hpp"
 #include "pipeline/counts.hpp"
+#include "rays/list.hpp"
+#include "rays/row_receivers.hpp"
 
 namespace csgrt {
 

@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "compile/host_kernels.hpp"
-#include "compile/lists/overlaps.hpp"
 #include "device/program.hpp"
 #include "pipeline/passes/scene_tables.hpp"
 #include "pipeline/counts.hpp"
+#include "rays/overlaps.hpp"
 
 namespace csgrt {
 

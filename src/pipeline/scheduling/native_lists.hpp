@@ -1,11 +1,11 @@
 // Native lists: traces a list of rays, batch by batch, on all threads with the native device's kernels.
 #pragma once
 
-#include "compile/lists/ray_list.hpp"
-#include "compile/lists/row_receivers.hpp"
 #include "device/device.hpp"
 #include "pipeline/passes/native_tracer.hpp"
 #include "pipeline/scheduling/device_passes.hpp"
+#include "rays/list.hpp"
+#include "rays/row_receivers.hpp"
 
 namespace csgrt {
 

@@ -8,9 +8,9 @@
 #include <span>
 #include <vector>
 
-#include "compile/lists/ray_list.hpp"
-#include "compile/lists/row_receivers.hpp"
 #include "pipeline/scheduling/device_passes.hpp"
+#include "rays/list.hpp"
+#include "rays/row_receivers.hpp"
 
 namespace csgrt {
 

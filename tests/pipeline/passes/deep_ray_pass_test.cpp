@@ -8,6 +8,7 @@
 #include "kernel_host/geometry.hpp"
 #include "pipeline/passes/on_device.hpp"
 #include "pipeline/passes/partitions.hpp"
+#include "rays/frame.hpp"
 
 using namespace csgrt;
 

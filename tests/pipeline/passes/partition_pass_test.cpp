@@ -10,6 +10,7 @@
 #include "integration/same_answers.hpp"
 #include "kernel_host/geometry.hpp"
 #include "pipeline/passes/on_device.hpp"
+#include "rays/frame.hpp"
 
 using namespace csgrt;
 

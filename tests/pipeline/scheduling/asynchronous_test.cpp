@@ -18,6 +18,7 @@
 #include "integration/lists.hpp"
 #include "integration/same_answers.hpp"
 #include "integration/scenes.hpp"
+#include "rays/frame.hpp"
 #include "reference/reference.hpp"
 #include "sanitized.hpp"
 #include "stress/build.hpp"

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "compile/compiled_scene.hpp"
-#include "compile/lists/rows.hpp"
+#include "rays/rows.hpp"
 
 namespace csgrt {
 

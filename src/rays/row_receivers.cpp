@@ -1,4 +1,4 @@
-#include "compile/lists/row_receivers.hpp"
+#include "rays/row_receivers.hpp"
 
 #include <algorithm>
 #include <cmath>

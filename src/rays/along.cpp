@@ -1,4 +1,4 @@
-#include "compile/lists/along_rays.hpp"
+#include "rays/along.hpp"
 
 #include "base/along.hpp"
 #include "base/parallel.hpp"

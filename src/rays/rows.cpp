@@ -1,4 +1,4 @@
-#include "compile/lists/rows.hpp"
+#include "rays/rows.hpp"
 
 namespace csgrt {
 

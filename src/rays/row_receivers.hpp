@@ -6,7 +6,7 @@
 #include <map>
 #include <mutex>
 
-#include "compile/lists/rows.hpp"
+#include "rays/rows.hpp"
 
 namespace csgrt {
 

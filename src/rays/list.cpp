@@ -1,4 +1,4 @@
-#include "compile/lists/ray_list.hpp"
+#include "rays/list.hpp"
 
 #include <algorithm>
 #include <atomic>
@@ -9,7 +9,7 @@
 #include <csgrt/error.hpp>
 
 #include "base/parallel.hpp"
-#include "compile/lists/grid.hpp"
+#include "rays/grid.hpp"
 #include "scene/range.hpp"
 #include "scene/vector.hpp"
 

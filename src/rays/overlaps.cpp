@@ -1,4 +1,4 @@
-#include "compile/lists/overlaps.hpp"
+#include "rays/overlaps.hpp"
 
 #include <algorithm>
 #include <utility>

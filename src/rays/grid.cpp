@@ -1,4 +1,4 @@
-#include "compile/lists/grid.hpp"
+#include "rays/grid.hpp"
 
 #include <algorithm>
 #include <cmath>
