@@ -5,6 +5,7 @@
 #include <mutex>
 
 #include "base/laboratory.hpp"
+#include "compile/records/converter.hpp"
 #include "device/choice.hpp"
 #include "pipeline/passes/batch_buffers.hpp"
 #include "pipeline/passes/partitions.hpp"
@@ -13,7 +14,6 @@
 #include "rays/along.hpp"
 #include "rays/frame.hpp"
 #include "rays/list.hpp"
-#include "reference/reference_kernels.hpp"
 
 namespace csgrt {
 const std::vector<KernelFile>& method_kernel_files();  // written by embed_kernels
@@ -75,16 +75,16 @@ public:
     DeviceTracer(const Subject& subject, const TraceOptions& options, DeviceMethod method)
         : scene_(subject.compiled),
           method_(std::move(method)),
-          kernels_(make_kernels(scene_)),
+          records_(make_converter(scene_)),
           device_(compiling_device(method_.name, options.device)),
-          scene_tables_(device_, scene_, kernels_->tables()),
+          scene_tables_(device_, scene_, records_->tables()),
           tables_(device_, "the method's tables", tables_of(scene_, method_)),
           memory_(device_, "the method's memory of rays"),
           batch_(device_),
           evaluation_{method_.kernel, source(),
                       [this](Kernel& kernel, const PartitionPass::Input& input, PartitionMemory& memory,
                              std::uint32_t segments) { return launch(kernel, input, memory, segments); }},
-          pass_(device_, scene_, *kernels_, with_methods({.evaluation = &evaluation_})) {
+          pass_(device_, scene_, *records_, with_methods({.evaluation = &evaluation_})) {
         most_rays_ = batch_rays;
         if (method_.ray_words == 0) return;
         const std::uint64_t bytes = method_.ray_words * sizeof(std::uint32_t);
@@ -147,10 +147,10 @@ private:
         kernel::Frame frame = prepare_rays(scene_, count, tolerance_of(scene_)).frame;
         frame.ray_count = count;
         frame.candidate_capacity = frame.segment_capacity = frame.word_capacity = COUNT_MAX;
-        batch_.frame = Buffer(device_, "frame", kernels_->frame(frame));
+        batch_.frame = Buffer(device_, "frame", records_->frame(frame));
         std::vector<kernel::RayRecord> records(rays.size());
         RayList(rays, {.all = whole_line}).fill(0, records);
-        batch_.rays = Buffer(device_, "list of rays", kernels_->rays(records));
+        batch_.rays = Buffer(device_, "list of rays", records_->rays(records));
         TimedKernels timed;
         if (!pass_.trace_counted({scene_tables_, batch_, Work::rays, count}, timed)) return false;
         add_times(timed, counts_);
@@ -176,7 +176,7 @@ private:
 
     const CompiledScene& scene_;
     DeviceMethod method_;
-    std::unique_ptr<ReferenceKernels> kernels_;  ///< for the tables' and buffers' formats alone
+    std::unique_ptr<RecordConverter> records_;  ///< for the tables' and buffers' formats alone
     Device device_;
     SceneTables scene_tables_;
     Buffer tables_, memory_;

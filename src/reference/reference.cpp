@@ -273,7 +273,7 @@ void Reference::trace(const kernel::Frame& frame, const RayList& list, RowReceiv
         for (std::size_t i = begin; i < end; ++i) {
             if (watch) watch->check();
             const kernel::RayRecord record = list.record(i);
-            kernels_.check({&record, 1}, i);
+            kernels_.check(record, i);
             evaluate(frame, record, answer);
             append_rows(frame, record, static_cast<std::uint32_t>(i - begin), receiver.fields(), answer, rows);
             rows.places.push_back({static_cast<std::uint32_t>(rows.regions.size()), 0});

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/laboratory.hpp"
-#include "compile/host_kernels.hpp"
+#include "compile/compiled_scene.hpp"
 #include "rays/rows.hpp"
 #include "reference/near_solids.hpp"
 #include "reference/weave.hpp"
@@ -15,8 +15,12 @@
 namespace csgrt {
 
 /// The kernels' functions that the reference calls, behind one interface for all precisions.
-class ReferenceKernels : public HostKernels {
+class ReferenceKernels {
 public:
+    virtual ~ReferenceKernels() = default;
+
+    /// Throws Error (usage) for a ray whose numbers do not fit the precision. `number`: its index in the list.
+    virtual void check(const kernel::RayRecord& ray, std::uint64_t number) const = 0;
     /// The ray of a pixel. In 113 bits it is the one in double, so that the two see the same rays.
     virtual Ray camera_ray(const kernel::Frame& frame, std::uint32_t x, std::uint32_t y) const;
     /// Finds the boundaries of all segments along a ray, two a segment, by ascending solid, and weaves them; the result

@@ -12,6 +12,7 @@
 
 #include "base/watch.hpp"
 #include "compile/frame.hpp"
+#include "compile/records/converter.hpp"
 #include "pipeline/readback/registered_memory.hpp"
 #include "pipeline/readback/picture.hpp"
 #include "rays/list.hpp"
@@ -30,11 +31,12 @@ struct FrameMemory {
     std::shared_ptr<RegisteredMemory>& registered;  ///< with the devices of that backend
 };
 
-/// A model, and its kernels in the backend's precision.
+/// A model, and what its backend has of it in its own precision.
 struct ModelInUse {
     std::shared_ptr<const void> owner;  ///< of the scene
     const CompiledScene& scene;
-    std::unique_ptr<const ReferenceKernels> kernels;
+    std::unique_ptr<const RecordConverter> records;   ///< null: the reference draws
+    std::unique_ptr<const ReferenceKernels> kernels;  ///< null: devices draw
 };
 
 /// Draws and shoots. One thread at a time. All calls throw Error (device_fault, out_of_memory, interrupted).

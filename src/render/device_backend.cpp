@@ -17,7 +17,7 @@ DeviceBackend::DeviceBackend(DevicePlan plan, std::shared_ptr<const ModelInUse> 
           std::move(plan),
           [this, settings](const std::vector<FoundDevice>& devices) {
               const std::shared_ptr<const ModelInUse> in_use = this->model();
-              auto group = std::make_unique<DeviceGroup>(devices, in_use->scene, *in_use->kernels, settings);
+              auto group = std::make_unique<DeviceGroup>(devices, in_use->scene, *in_use->records, settings);
               group->keep(in_use);
               return group;
           },
@@ -26,7 +26,7 @@ DeviceBackend::DeviceBackend(DevicePlan plan, std::shared_ptr<const ModelInUse> 
 /// Gives the group the model, if it has another.
 void DeviceBackend::adapt(DeviceGroup& group) const {
     const std::shared_ptr<const ModelInUse> in_use = model();
-    if (group.owner() != in_use) group.set_scene(in_use->scene, *in_use->kernels, in_use);
+    if (group.owner() != in_use) group.set_scene(in_use->scene, *in_use->records, in_use);
 }
 
 void DeviceBackend::set_model(std::shared_ptr<const ModelInUse> model) {

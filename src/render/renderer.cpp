@@ -68,8 +68,9 @@ std::shared_ptr<const ModelInUse> Renderer::Impl::used(ClaimingRegions claims, b
     if (&scene == &compiled->scene) claims = ClaimingRegions::all;
     std::shared_ptr<const ModelInUse>& use = in_use[static_cast<std::size_t>(claims)];
     if (!use)
-        use = std::make_shared<ModelInUse>(ModelInUse{
-            compiled, scene, is_reference ? make_kernels_to_run(scene, settings) : make_kernels(scene, settings)});
+        use = std::make_shared<ModelInUse>(ModelInUse{compiled, scene,
+                                                      is_reference ? nullptr : make_converter(scene, settings),
+                                                      is_reference ? make_kernels_to_run(scene, settings) : nullptr});
     return use;
 }
 

@@ -172,7 +172,7 @@ std::vector<Case> asynchronous_cases(FaultyOpenCl& faulty) {
                 Scene scene;
                 Renderer renderer;
                 CompiledScene compiled = compile(scene, {});
-                std::unique_ptr<HostKernels> kernels = make_kernels(compiled);
+                std::unique_ptr<RecordConverter> records = make_converter(compiled);
                 std::unique_ptr<DeviceGroup> group = nullptr;
             };
             Settings reference{.reference = true};
@@ -180,7 +180,7 @@ std::vector<Case> asynchronous_cases(FaultyOpenCl& faulty) {
             const std::vector<FoundDevice> all = find_devices().devices;
             FoundDevice device = all.at(choose_device(infos_of(all), test::compiling_device()));
             device.cl = &faulty.functions();
-            parts->group = std::make_unique<DeviceGroup>(std::vector{device}, parts->compiled, *parts->kernels,
+            parts->group = std::make_unique<DeviceGroup>(std::vector{device}, parts->compiled, *parts->records,
                                                          Settings{}, Readback::asynchronous);
             parts->group->prepare(true);
             parts->group->prepare(view.every_partition);

@@ -96,8 +96,8 @@ TEST_CASE("two devices read a picture back asynchronously", "[.two_devices]") {
     Renderer one(scene, {}, settings);
     settings.device = both_pocls();
     const CompiledScene compiled = compile(scene, {});
-    const auto kernels = make_kernels(compiled, settings);
-    DeviceGroup two(plan_devices(settings).first, compiled, *kernels, settings, Readback::asynchronous);
+    const auto records = make_converter(compiled, settings);
+    DeviceGroup two(plan_devices(settings).first, compiled, *records, settings, Readback::asynchronous);
     View view{.width = 301, .height = 257, .channels = channel::color | channel::ids};
     Channels pixels(301 * 257, std::vector<float>(6));
     std::vector<ChannelMemory> planes;

@@ -6,6 +6,7 @@
 
 #include <csgrt/csgrt.hpp>
 
+#include "compile/records/converter.hpp"
 #include "kernels/geometry/kernel_answer.hpp"
 #include "oracle/random.hpp"
 #include "oracle/rays.hpp"
@@ -149,6 +150,7 @@ TEST_CASE("a precision where it is not is refused", "[pipeline][promise:rounding
 
     const CompiledScene compiled = compile_alone(Ell{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, identity);
     const std::vector<kernel::RayRecord> faint = {{-9, 0, 0, 1e-40, 0, 0, 0, 1}};
-    CHECK_THROWS_AS(make_kernels(compiled, in_world)->check(faint, 0), Error);
-    CHECK_NOTHROW(make_kernels(compiled, in_single)->check(faint, 0));
+    CHECK_THROWS_AS(make_converter(compiled, in_world)->check(faint, 0), Error);
+    CHECK_THROWS_AS(make_kernels(compiled, in_world)->check(faint.front(), 0), Error);
+    CHECK_NOTHROW(make_converter(compiled, in_single)->check(faint, 0));
 }

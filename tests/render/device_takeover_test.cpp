@@ -12,8 +12,8 @@
 
 #include "catch.hpp"
 #include "cli/held_renderer.hpp"
+#include "compile/records/converter.hpp"
 #include "integration/same_answers.hpp"
-#include "reference/reference_kernels.hpp"
 #include "stress/parts.hpp"
 
 using namespace csgrt;
@@ -49,7 +49,7 @@ struct Compiled {
     Scene scene = stress::scene_of_parts(20);
     CompiledScene compiled = compile(scene, {});
     Settings settings;
-    std::unique_ptr<ReferenceKernels> kernels = make_kernels(compiled, settings);
+    std::unique_ptr<RecordConverter> records = make_converter(compiled, settings);
 
     DevicePlan plan(std::function<std::vector<FoundDevice>()> find_next, bool is_default = true) const {
         DevicePlan made;
@@ -62,7 +62,7 @@ struct Compiled {
     DeviceTakeover::SetUp set_up() const {
         return [this](const std::vector<FoundDevice>& devices) {
             const Readback readback = is_native(devices.at(0).info) ? Readback::by_device : Readback::asynchronous;
-            return std::make_unique<DeviceGroup>(devices, compiled, *kernels, settings, readback);
+            return std::make_unique<DeviceGroup>(devices, compiled, *records, settings, readback);
         };
     }
 };

@@ -4,9 +4,9 @@
 
 namespace csgrt {
 
-PartitionMemory::PartitionMemory(Device& device, const HostKernels& kernels)
+PartitionMemory::PartitionMemory(Device& device, const RecordConverter& records)
     : device_(device),
-      boundary_bytes_(kernels.boundary_bytes()),
+      boundary_bytes_(records.boundary_bytes()),
       ray_counts_(device, "candidates' places, then rays' tallies"),
       offsets_(device, "rays' offsets"),
       candidates_(device, "candidates"),

@@ -14,7 +14,7 @@
 
 #include <cstdint>
 
-#include "compile/host_kernels.hpp"
+#include "compile/records/converter.hpp"
 #include "device/program.hpp"
 
 namespace csgrt {
@@ -33,7 +33,7 @@ struct PartitionSizes {
 /// The buffers of a batch's segments and partitions. They are kept from batch to batch and grow to the largest.
 class PartitionMemory {
 public:
-    PartitionMemory(Device& device, const HostKernels& kernels);
+    PartitionMemory(Device& device, const RecordConverter& records);
 
     Buffer& candidate_places() { return ray_counts_; }  ///< kernel::CandidateCount, one a ray and one more
     Buffer& ray_tallies() { return ray_counts_; }       ///< kernel::RayTally, one a ray

@@ -30,11 +30,11 @@ std::vector<std::string> options_for(const Device& device, const CompiledScene& 
 
 }  // namespace
 
-PartitionPass::PartitionPass(Device& device, const CompiledScene& scene, const HostKernels& kernels,
+PartitionPass::PartitionPass(Device& device, const CompiledScene& scene, const RecordConverter& records,
                              const Settings& settings)
     : device_(device),
       scene_(&scene),
-      kernels_(&kernels),
+      records_(&records),
       other_evaluation_(laboratory(settings).evaluation),
       program_(device,
                program_source(device.info(), settings, "partitions",
@@ -54,9 +54,9 @@ PartitionPass::PartitionPass(Device& device, const CompiledScene& scene, const H
       weave_(program_.kernel("weave")),
       evaluate_(program_.kernel(other_evaluation_ ? other_evaluation_->name : "evaluate")),
       shade_(program_.kernel("shade")),
-      memory_(device, kernels),
+      memory_(device, records),
       deep_rays_(device, program_, scene),
-      rows_(device, program_, scene, kernels),
+      rows_(device, program_, scene, records),
       no_buffer_(device, "nothing"),
       scan_sums_buffer_(device, "sums of counts"),
       read_(device, "sums of tallies"),
@@ -66,11 +66,11 @@ PartitionPass::PartitionPass(Device& device, const CompiledScene& scene, const H
     if (has_flat_faced(scene)) rays_in_faces_ = {program_.kernel("count_in_faces"), program_.kernel("store_in_faces")};
 }
 
-void PartitionPass::set_scene(const CompiledScene& scene, const HostKernels& kernels) {
+void PartitionPass::set_scene(const CompiledScene& scene, const RecordConverter& records) {
     scene_ = &scene;
-    kernels_ = &kernels;
+    records_ = &records;
     deep_rays_.set_scene(scene);
-    rows_.set_scene(scene, kernels);
+    rows_.set_scene(scene, records);
     average_ = average_before_ = {};
 }
 
@@ -257,7 +257,7 @@ TracedBatch PartitionPass::read(std::uint32_t rays) {
     traced.offsets = memory_.offsets().read<kernel::RayCount>(std::size_t{rays} + 1);
     const std::size_t boundaries = 2 * std::size_t{traced.offsets.back().segments};
     traced.boundaries =
-        kernels_->boundaries(memory_.boundaries().read<std::byte>(boundaries * kernels_->boundary_bytes()));
+        records_->boundaries(memory_.boundaries().read<std::byte>(boundaries * records_->boundary_bytes()));
     traced.nodes = memory_.partitions().read<kernel::PartitionNode>(boundaries);
     return traced;
 }
@@ -290,8 +290,8 @@ void PartitionPass::add_sizes(const PartitionSizes& needed, std::uint32_t rays, 
     counts.ends += nodes;
     counts.partitions_allocated += nodes;
     counts.segment_bytes +=
-        nodes * kernels_->boundary_bytes() +
-        needed.candidates * (sizeof(kernel::Candidate) + 2 * std::uint64_t{kernels_->boundary_bytes()});
+        nodes * records_->boundary_bytes() +
+        needed.candidates * (sizeof(kernel::Candidate) + 2 * std::uint64_t{records_->boundary_bytes()});
     counts.partition_bytes +=
         nodes * sizeof(kernel::PartitionNode) + std::uint64_t{needed.total.words} * sizeof(std::uint32_t);
     average_before_ = std::exchange(average_, {.candidates = double(needed.candidates) / rays,

@@ -37,10 +37,10 @@ public:
     };
 
     /// Compiles its kernels. Throws Error (device_fault).
-    PartitionPass(Device& device, const CompiledScene& scene, const HostKernels& kernels, const Settings& settings);
+    PartitionPass(Device& device, const CompiledScene& scene, const RecordConverter& records, const Settings& settings);
 
     /// Takes another scene, which the pass's programs can draw (see draws()). Both arguments must outlive the pass.
-    void set_scene(const CompiledScene& scene, const HostKernels& kernels);
+    void set_scene(const CompiledScene& scene, const RecordConverter& records);
 
     /// Runs kernels 1 to 4. The frame's capacities are COUNT_MAX. Waits for the counts only. Returns the sizes that the
     /// rays need; nothing if these do not fit the memory: then the caller takes a smaller batch.
@@ -118,7 +118,7 @@ private:
 
     Device& device_;
     const CompiledScene* scene_;
-    const HostKernels* kernels_;
+    const RecordConverter* records_;
     const Evaluation* other_evaluation_;
     Program program_;
     CullPass cull_;

@@ -8,10 +8,10 @@
 
 namespace csgrt {
 
-RowPass::RowPass(Device& device, const Program& program, const CompiledScene& scene, const HostKernels& kernels)
+RowPass::RowPass(Device& device, const Program& program, const CompiledScene& scene, const RecordConverter& records)
     : device_(device),
       scene_(&scene),
-      kernels_(&kernels),
+      records_(&records),
       count_rows_(program.kernel("count_rows")),
       write_rows_(program.kernel("write_rows")),
       describe_rows_(program.kernel("describe_rows")),
@@ -31,7 +31,7 @@ RowPass::RowPass(Device& device, const Program& program, const CompiledScene& sc
 
 std::size_t RowPass::row_bytes(std::size_t column) const {
     if (column == regions || column == in_solids || column == out_solids) return sizeof(std::int32_t);
-    return (column == in || column == out ? 1 : 3) * kernels_->wide_bytes();
+    return (column == in || column == out ? 1 : 3) * records_->wide_bytes();
 }
 
 bool RowPass::is_wanted(std::size_t column, Fields fields) const {
@@ -71,7 +71,7 @@ bool RowPass::write(const Input& input, const kernel::RayCount& total, Fields fi
     bounds_.release();
     overlap_records_.release();
     if (is_described) wanted.emplace_back(&bounds_, std::uint64_t{total.segments} * sizeof(kernel::RowBoundaries));
-    if (fields.overlaps) wanted.emplace_back(&overlap_records_, std::uint64_t{total.words} * kernels_->overlap_bytes());
+    if (fields.overlaps) wanted.emplace_back(&overlap_records_, std::uint64_t{total.words} * records_->overlap_bytes());
     if (!reserve(wanted)) return false;
     const auto add = [&](Event event) { timed.emplace_back(&PipelineCounts::rows, std::move(event)); };
     add(write_rows_.launch(total.segments + total.words ? input.count : 0, work_group, input.frame, input.rays,
@@ -133,7 +133,7 @@ bool RowPass::list_claimants(const Input& input, std::uint32_t claims, const Sce
 
 void RowPass::read_overlaps() {
     const auto overlap_records =
-        kernels_->overlap_records(overlap_records_.read<std::byte>(total_.words * kernels_->overlap_bytes()));
+        records_->overlap_records(overlap_records_.read<std::byte>(total_.words * records_->overlap_bytes()));
     const auto places = claim_places_.read<kernel::RayCount>(overlap_records.size());
     const auto claimants = claimants_.read<std::uint32_t>(claims_),
                counts = claimant_counts_.read<std::uint32_t>(overlap_records.size());
@@ -144,7 +144,7 @@ void RowPass::read_overlaps() {
 
 void RowPass::append_overlaps(const TracedBatch& traced) {
     const auto overlap_records =
-        kernels_->overlap_records(overlap_records_.read<std::byte>(total_.words * kernels_->overlap_bytes()));
+        records_->overlap_records(overlap_records_.read<std::byte>(total_.words * records_->overlap_bytes()));
     csgrt::append_overlaps(*scene_, overlap_records,
                            {traced.offsets.data(), traced.boundaries.data(), traced.nodes.data()}, memory_);
 }

@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "compile/host_kernels.hpp"
+#include "compile/records/converter.hpp"
 #include "device/program.hpp"
 #include "pipeline/passes/scene_tables.hpp"
 #include "pipeline/counts.hpp"
@@ -18,13 +18,13 @@ namespace csgrt {
 class RowPass {
 public:
     /// Takes the kernels of kernels/6_rows.cl from `program`. All arguments must outlive the pass.
-    RowPass(Device& device, const Program& program, const CompiledScene& scene, const HostKernels& kernels);
+    RowPass(Device& device, const Program& program, const CompiledScene& scene, const RecordConverter& records);
 
     ~RowPass() { cancel(); }
 
-    void set_scene(const CompiledScene& scene, const HostKernels& kernels) {
+    void set_scene(const CompiledScene& scene, const RecordConverter& records) {
         scene_ = &scene;
-        kernels_ = &kernels;
+        records_ = &records;
     }
 
     /// The buffers that the kernels read, of the batch that was traced last.
@@ -76,7 +76,7 @@ private:
 
     Device& device_;
     const CompiledScene* scene_;
-    const HostKernels* kernels_;
+    const RecordConverter* records_;
     Kernel count_rows_, write_rows_, describe_rows_, count_claimants_, list_claimants_;
     Buffer places_, bounds_, overlap_records_, claim_places_, claimants_, claimant_counts_;
     std::vector<Buffer> columns_;          ///< by Column

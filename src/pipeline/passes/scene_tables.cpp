@@ -4,7 +4,7 @@
 
 namespace csgrt {
 
-SceneTables::SceneTables(Device& device, const CompiledScene& scene, const HostKernels::Tables& tables)
+SceneTables::SceneTables(Device& device, const CompiledScene& scene, const RecordConverter::Tables& tables)
     : scene_(scene),
       solids_(device, "solids", tables.solids),
       reals_(device, "solids' parameters", tables.reals),
@@ -24,7 +24,7 @@ bool SceneTables::takes(const CompiledScene& scene) const {
            scene.trees.shares(scene_.trees);
 }
 
-void SceneTables::take(const CompiledScene& scene, const HostKernels::Tables& tables) {
+void SceneTables::take(const CompiledScene& scene, const RecordConverter::Tables& tables) {
     const auto replace = [](Buffer& buffer, const auto& values) {
         buffer.reserve(std::span(values).size_bytes());
         if (!values.empty()) buffer.upload(values.data(), std::span(values).size_bytes());

@@ -4,7 +4,7 @@
 #include <tuple>
 
 #include "compile/compiled_scene.hpp"
-#include "compile/host_kernels.hpp"
+#include "compile/records/converter.hpp"
 #include "device/program.hpp"
 
 namespace csgrt {
@@ -12,12 +12,12 @@ namespace csgrt {
 /// One buffer a table. Kernels take the tables in groups; each group is a macro of kernels/shared/scene_args.h.
 class SceneTables {
 public:
-    SceneTables(Device& device, const CompiledScene& scene, const HostKernels::Tables& tables);
+    SceneTables(Device& device, const CompiledScene& scene, const RecordConverter::Tables& tables);
 
     /// Whether another scene has the same solids with the same transforms.
     bool takes(const CompiledScene& scene) const;
     /// Takes such a scene: copies the tables that differ. Waits.
-    void take(const CompiledScene& scene, const HostKernels::Tables& tables);
+    void take(const CompiledScene& scene, const RecordConverter::Tables& tables);
     /// Sets a frame's lights, as its kernels read them. Waits.
     void set_lights(const std::vector<std::byte>& lights);
 

@@ -143,7 +143,7 @@ bool AsynchronousSchedule::start(Batch& batch, const FrameJob& job, const RayBat
     batch.culling.clear();
     batch.drawing.clear();
     if (!every && !acquire_picture(batch, job)) return false;
-    const std::vector<std::byte> frame = passes_.kernels().frame(batch.frame);
+    const std::vector<std::byte> frame = passes_.records().frame(batch.frame);
     if (batch_bytes(job.shape(), rays, frame.size()) > passes_.device.available() + batch.buffers.held()) {
         cancel(batch);
         return false;
@@ -176,7 +176,7 @@ void AsynchronousSchedule::upload_frame(Batch& batch, const PartitionSizes& capa
     batch.frame.candidate_capacity = capacity.candidates;
     batch.frame.segment_capacity = capacity.total.segments;
     batch.frame.word_capacity = capacity.total.words;
-    batch.frame_upload.start<std::byte>(batch.buffers.frame, passes_.kernels().frame(batch.frame));
+    batch.frame_upload.start<std::byte>(batch.buffers.frame, passes_.records().frame(batch.frame));
 }
 
 bool AsynchronousSchedule::acquire_picture(Batch& batch, const FrameJob& job) {

@@ -20,12 +20,12 @@ constexpr const char* registered_name = "registered memory";
 static std::atomic<std::uint64_t> next_number{1};
 
 DeviceGroup::DeviceGroup(const std::vector<FoundDevice>& devices, const CompiledScene& scene,
-                         const HostKernels& kernels, const Settings& settings, Readback readback)
+                         const RecordConverter& records, const Settings& settings, Readback readback)
     : number_(next_number++) {
     const auto start = Clock::now();
     for (const FoundDevice& device : devices) {
         devices_.push_back(std::make_unique<Device>(device, settings.max_memory, settings.device_timeout));
-        pipelines_.push_back(std::make_unique<Pipeline>(*devices_.back(), scene, kernels, settings, readback));
+        pipelines_.push_back(std::make_unique<Pipeline>(*devices_.back(), scene, records, settings, readback));
     }
     setup_ms_ = milliseconds_since(start);
 }
@@ -91,9 +91,10 @@ void DeviceGroup::share(std::uint64_t rays, std::uint64_t row, bool every_partit
         if (error) std::rethrow_exception(error);
 }
 
-void DeviceGroup::set_scene(const CompiledScene& scene, const HostKernels& kernels, std::shared_ptr<const void> owner) {
+void DeviceGroup::set_scene(const CompiledScene& scene, const RecordConverter& records,
+                            std::shared_ptr<const void> owner) {
     start_call();
-    for (const auto& pipeline : pipelines_) pipeline->set_scene(scene, kernels);
+    for (const auto& pipeline : pipelines_) pipeline->set_scene(scene, records);
     owner_ = std::move(owner);
 }
 

@@ -20,14 +20,14 @@ class DeviceGroup {
 public:
     /// Makes pipelines on these devices; `settings.device` is not read. The scene and the kernels must outlive the
     /// group.
-    DeviceGroup(const std::vector<FoundDevice>& devices, const CompiledScene& scene, const HostKernels& kernels,
+    DeviceGroup(const std::vector<FoundDevice>& devices, const CompiledScene& scene, const RecordConverter& records,
                 const Settings& settings, Readback readback = Readback::by_device);
 
     /// A number that no other group of the process has, not 0.
     std::uint64_t number() const noexcept { return number_; }
 
     /// Takes another scene for the next calls. `owner`: keeps it and its kernels alive.
-    void set_scene(const CompiledScene& scene, const HostKernels& kernels, std::shared_ptr<const void> owner);
+    void set_scene(const CompiledScene& scene, const RecordConverter& records, std::shared_ptr<const void> owner);
     /// Whether the compiled kernels can draw the scene.
     bool can_draw(const CompiledScene& scene) const;
     /// The owner of the last set_scene() or keep(); null: neither was called.

@@ -4,28 +4,28 @@
 
 namespace csgrt {
 
-DevicePasses::DevicePasses(Device& on, const CompiledScene& compiled, const HostKernels& host_kernels,
+DevicePasses::DevicePasses(Device& on, const CompiledScene& compiled, const RecordConverter& records,
                            const Settings& settings)
-    : device(on), scene_(&compiled), kernels_(&host_kernels), needs_(compiled), settings_(settings), tile_list_(on) {
-    tables.emplace(on, compiled, host_kernels.tables());
+    : device(on), scene_(&compiled), records_(&records), needs_(compiled), settings_(settings), tile_list_(on) {
+    tables.emplace(on, compiled, records.tables());
 }
 
-void DevicePasses::set_scene(const CompiledScene& compiled, const HostKernels& host_kernels) {
+void DevicePasses::set_scene(const CompiledScene& compiled, const RecordConverter& records) {
     if (tables && !tables->takes(compiled)) tables.reset();  // there may be no room for both
     scene_ = &compiled;
-    kernels_ = &host_kernels;
+    records_ = &records;
     const ProgramNeeds needs(compiled);
     if (!draws(device, needs_, needs)) {
         first_hits_.reset();
         partitions_.reset();
         needs_ = needs;
     } else if (partitions_) {
-        partitions_->set_scene(compiled, host_kernels);
+        partitions_->set_scene(compiled, records);
     }
     if (tables)
-        tables->take(compiled, host_kernels.tables());
+        tables->take(compiled, records.tables());
     else
-        tables.emplace(device, compiled, host_kernels.tables());
+        tables.emplace(device, compiled, records.tables());
 }
 
 template <class Build>
@@ -41,7 +41,7 @@ FirstHitPass& DevicePasses::first_hits() {
 }
 
 PartitionPass& DevicePasses::partitions() {
-    if (!partitions_) timed_build([&] { partitions_.emplace(device, *scene_, *kernels_, settings_); });
+    if (!partitions_) timed_build([&] { partitions_.emplace(device, *scene_, *records_, settings_); });
     return *partitions_;
 }
 

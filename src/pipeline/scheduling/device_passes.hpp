@@ -37,17 +37,17 @@ struct FrameJob {
 /// Holds the passes, which are compiled at their first use. All arguments must outlive it.
 class DevicePasses {
 public:
-    DevicePasses(Device& device, const CompiledScene& scene, const HostKernels& kernels, const Settings& settings);
+    DevicePasses(Device& device, const CompiledScene& scene, const RecordConverter& records, const Settings& settings);
 
     /// Takes another scene. Passes whose programs cannot draw it are dropped, and so are buffers that hold the last
     /// scene. Throws Error (out_of_memory, device_fault).
-    void set_scene(const CompiledScene& scene, const HostKernels& kernels);
+    void set_scene(const CompiledScene& scene, const RecordConverter& records);
 
     /// Whether the compiled programs can draw the scene.
     bool can_draw(const CompiledScene& scene) const { return draws(device, needs_, ProgramNeeds(scene)); }
 
     Device& device;
-    const HostKernels& kernels() const { return *kernels_; }
+    const RecordConverter& records() const { return *records_; }
     std::optional<SceneTables> tables;
 
     FirstHitPass& first_hits();
@@ -71,7 +71,7 @@ private:
     void timed_build(const Build& build);
 
     const CompiledScene* scene_;
-    const HostKernels* kernels_;
+    const RecordConverter* records_;
     ProgramNeeds needs_;  ///< of the passes' programs
     Settings settings_;
     std::optional<FirstHitPass> first_hits_;

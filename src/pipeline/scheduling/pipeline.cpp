@@ -6,9 +6,9 @@
 
 namespace csgrt {
 
-Pipeline::Pipeline(Device& device, const CompiledScene& scene, const HostKernels& kernels, const Settings& settings,
+Pipeline::Pipeline(Device& device, const CompiledScene& scene, const RecordConverter& records, const Settings& settings,
                    Readback readback, std::uint64_t most_rays)
-    : passes_(device, scene, kernels, settings),
+    : passes_(device, scene, records, settings),
       most_rays_(most_rays),
       synchronous_(
           passes_, [this] { return memory(); }, [this] { return asynchronous_ && asynchronous_->reclaim(); }) {
@@ -18,9 +18,9 @@ Pipeline::Pipeline(Device& device, const CompiledScene& scene, const HostKernels
     if (readback == Readback::asynchronous || !is_processor()) asynchronous_.emplace(passes_, synchronous_);
 }
 
-void Pipeline::set_scene(const CompiledScene& scene, const HostKernels& kernels) {
+void Pipeline::set_scene(const CompiledScene& scene, const RecordConverter& records) {
     abandon();
-    passes_.set_scene(scene, kernels);
+    passes_.set_scene(scene, records);
     if (native_level_) native_.emplace(*native_level_, scene, passes_.device);
 }
 
@@ -39,7 +39,7 @@ DeviceMemory Pipeline::memory() const {
 void Pipeline::render(const PreparedFrame& prepared, const TakeRays& take, const RenderTarget& target,
                       const ReportDone& report_done, PipelineCounts& counts) {
     const kernel::Frame& frame = prepared.frame;
-    passes_.tables->set_lights(passes_.kernels().lights(prepared.lights));
+    passes_.tables->set_lights(passes_.records().lights(prepared.lights));
     prepare(frame.every_partition);
     const FrameShape shape = shape_of(frame, target.channels.size());
     const std::uint32_t underway = asynchronous_ ? 2 : 1;

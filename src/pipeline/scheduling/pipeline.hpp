@@ -29,12 +29,12 @@ public:
 
     /// Uploads the scene. Kernels are compiled when they are first needed. `kernels` are the host's in the same
     /// precision. `most_rays`: of a picture's batch. All three objects must outlive the pipeline.
-    Pipeline(Device& device, const CompiledScene& scene, const HostKernels& kernels, const Settings& settings,
+    Pipeline(Device& device, const CompiledScene& scene, const RecordConverter& records, const Settings& settings,
              Readback readback = Readback::by_device, std::uint64_t most_rays = most_rays_drawn);
 
     /// Takes another scene for the next calls; both arguments must outlive the pipeline. Programs that can draw it
     /// stay, and buffers. Throws Error (out_of_memory, device_fault).
-    void set_scene(const CompiledScene& scene, const HostKernels& kernels);
+    void set_scene(const CompiledScene& scene, const RecordConverter& records);
     bool can_draw(const CompiledScene& scene) const { return passes_.can_draw(scene); }
     /// Compiles the kernels of such frames, if they are not compiled yet.
     void prepare(bool every_partition);

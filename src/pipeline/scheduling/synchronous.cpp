@@ -163,10 +163,10 @@ void SynchronousSchedule::draw_part_of_tile(const FrameJob& job, const RayBatch&
 
 // Uploads the rays of a batch, whose frame is uploaded already.
 void SynchronousSchedule::upload_rays(const RayList& rays, const RayBatch& batch) {
-    const std::size_t bytes = passes_.kernels().ray_bytes();
+    const std::size_t bytes = passes_.records().ray_bytes();
     wait_until_done(rays_upload_);  // of a call that threw
     batch_.rays.reserve(batch.rays * bytes);
-    if (rays.is_grid() && passes_.kernels().wide_bytes() == sizeof(double)) {
+    if (rays.is_grid() && passes_.records().wide_bytes() == sizeof(double)) {
         rays_upload_ = passes_.partitions().make_rays(batch_, batch.rays, rays.range());
         return;
     }
@@ -180,8 +180,8 @@ void SynchronousSchedule::upload_rays(const RayList& rays, const RayBatch& batch
         for (; first < last; first += records.size()) {
             const std::span some = std::span(records).first(std::min(records.size(), last - first));
             rays.fill(batch.first + first, some);
-            passes_.kernels().check(some, batch.first + first);
-            passes_.kernels().write_rays(some, staged + first * bytes);
+            passes_.records().check(some, batch.first + first);
+            passes_.records().write_rays(some, staged + first * bytes);
         }
     });
     rays_upload_ = batch_.rays.queue_upload(staged, batch.rays * bytes);

@@ -48,7 +48,7 @@ public:
 
     ~SynchronousSchedule() { wait_until_done(rays_upload_); }
 
-    std::uint64_t listed_ray_bytes() const { return passes_.kernels().ray_bytes() + PartitionMemory::ray_bytes; }
+    std::uint64_t listed_ray_bytes() const { return passes_.records().ray_bytes() + PartitionMemory::ray_bytes; }
     std::uint64_t held() const { return batch_.held() + picture_.size(); }
 
 private:
@@ -62,7 +62,7 @@ private:
     void make_room(std::uint64_t bytes, std::uint64_t reused);
     void upload_rays(const RayList& rays, const RayBatch& batch);
     void upload(const kernel::Frame& frame) {
-        frame_upload_.start<std::byte>(batch_.frame, passes_.kernels().frame(frame));
+        frame_upload_.start<std::byte>(batch_.frame, passes_.records().frame(frame));
     }
     /// Sets the frame's work to the listed rays, uploads both and makes room for their pixels.
     void start_work(kernel::Frame& frame, Work work, std::span<const std::uint32_t> numbers, std::uint64_t pixel_bytes,

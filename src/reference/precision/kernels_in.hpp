@@ -1,24 +1,9 @@
 // The kernels once more, in the namespace CSGRT_KERNELS and with CSGRT_NUMBERS, for the one file that includes this.
-// The headers that src/compile has included in double come first, and their guards are lifted. Numbers of many kinds
-// meet in this source, and warnings about narrowing would be about the other kinds.
-#include <cmath>
-#include <limits>
-
-#include "compile/compiled_scene.hpp"
 #include "reference/reference_kernels.hpp"
 
-#undef CSGRT_SHARED_BASE_H
-#undef CSGRT_SHARED_VECTORS_H
-#undef CSGRT_SHARED_LAYOUT_H
-#undef SOLID_CENTER
-#pragma GCC diagnostic ignored "-Wconversion"
-#pragma GCC diagnostic ignored "-Wfloat-conversion"
+#include "compile/records/in_precision.hpp"
 
 namespace csgrt::CSGRT_KERNELS {
-
-CSGRT_NUMBERS
-using u32 = std::uint32_t;
-inline const real REAL_INFINITY = static_cast<real>(std::numeric_limits<double>::infinity());
 
 #include "../kernels/traversal/camera.h"
 #include "../kernels/geometry/collect.h"

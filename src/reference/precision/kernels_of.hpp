@@ -1,105 +1,13 @@
-// HostKernels and ReferenceKernels over the kernels in the namespace CSGRT_KERNELS, made by CSGRT_MAKE_KERNELS. This is
-// the body of the one file that includes it.
-#include <algorithm>
-#include <array>
-#include <bit>
-#include <cmath>
-#include <cstddef>
-#include <cstring>
-#include <span>
-#include <string>
-#include <type_traits>
-
+// ReferenceKernels over the kernels in the namespace CSGRT_KERNELS, made by CSGRT_MAKE_KERNELS. This is the body of the
+// one file that includes it.
 #include "compile/bvh/space.hpp"
+#include "compile/records/conversions.hpp"
 #include "reference/reference_kernels.hpp"
 
 namespace csgrt {
 namespace {
 
-namespace k = CSGRT_KERNELS;
-using k::real;
-using k::wide;
-
-// ---- Conversion of records from double. A table that is the same in both is not copied. ----
-
-template <class To, class From>
-using Converted = std::conditional_t<std::is_same_v<To, From>, std::span<const From>, std::vector<To>>;
-
-/// Converts a record: it begins with `numbers` numbers that are `wide`, and its rest is the same in all precisions.
-template <class To, std::size_t numbers, class From>
-To converted(const From& record) {
-    constexpr std::size_t own = numbers * sizeof(wide), other = numbers * sizeof(double);
-    constexpr std::size_t rest = std::min(sizeof(To) - own, sizeof(From) - other);
-    static_assert(sizeof(To) - own - rest < alignof(To) && sizeof(From) - other - rest < alignof(From));  // padding
-    std::array<double, numbers> from;
-    std::array<wide, numbers> to;
-    std::memcpy(from.data(), &record, other);
-    std::transform(from.begin(), from.end(), to.begin(), [](double x) { return static_cast<wide>(x); });
-    To result{};
-    std::memcpy(&result, to.data(), own);
-    std::memcpy(reinterpret_cast<std::byte*>(&result) + own, reinterpret_cast<const std::byte*>(&record) + other, rest);
-    return result;
-}
-
-real convert(double x) { return static_cast<real>(x); }
-[[maybe_unused]] k::PlaneRecord convert(const kernel::PlaneRecord& p) { return converted<k::PlaneRecord, 4>(p); }
-[[maybe_unused]] k::LightRecord convert(const kernel::LightRecord& l) { return converted<k::LightRecord, 8>(l); }
 k::MaterialRecord convert(const kernel::MaterialRecord& m) { return std::bit_cast<k::MaterialRecord>(m); }
-
-// Boxes are larger in single precision. There a ray may meet a solid a little beside its position; with larger boxes a
-// device finds everything that the reference finds.
-[[maybe_unused]] k::BvhNode convert_node(const kernel::BvhNode& n) {
-    k::BvhNode node = std::bit_cast<k::BvhNode>(n);
-    double diagonal = 0;
-    for (int i = 0; i < 3; ++i) diagonal += double(n.high[i] - n.low[i]) * double(n.high[i] - n.low[i]);
-    const bool single = sizeof(real) == sizeof(float);
-    const auto pad = static_cast<float>(single ? 0x1p-10 * std::sqrt(diagonal) : 0);
-    for (int i = 0; i < 3; ++i) {
-        node.low[i] -= pad;
-        node.high[i] += pad;
-    }
-    return node;
-}
-
-[[maybe_unused]] k::SolidRecord convert_solid(const kernel::SolidRecord& s, const CompiledScene& scene) {
-    k::SolidRecord solid{};
-    static_assert(offsetof(k::SolidRecord, alone) == offsetof(kernel::SolidRecord, alone));
-    std::memcpy(&solid, &s, sizeof s);  // the center stands behind
-#ifdef CSGRT_EYE_RELATIVE
-    if (s.type != SOLID_ARB && s.type != SOLID_HALF)  // all others begin with their center
-        for (std::size_t i = 0; i < 3; ++i) solid.center[i] = scene.reals[s.first_real + i];
-#endif
-    (void)scene;
-    return solid;
-}
-
-template <class To, class From, class Convert>
-Converted<To, From> convert_all(const std::vector<From>& from, const Convert& one) {
-    if constexpr (std::is_same_v<To, From>) {
-        return from;
-    } else {
-        std::vector<To> to;
-        to.reserve(from.size());
-        for (const From& x : from) to.push_back(one(x));
-        return to;
-    }
-}
-
-k::RayRecord convert(const kernel::RayRecord& r) {
-    return {static_cast<wide>(r.ox), static_cast<wide>(r.oy), static_cast<wide>(r.oz),     static_cast<wide>(r.dx),
-            static_cast<wide>(r.dy), static_cast<wide>(r.dz), static_cast<wide>(r.t_near), static_cast<wide>(r.t_far)};
-}
-
-[[maybe_unused]] std::vector<kernel::Boundary> ends_of(std::vector<kernel::Boundary>&& boundaries) {
-    return std::move(boundaries);
-}
-template <class Boundary>
-std::vector<kernel::Boundary> ends_of(std::vector<Boundary>&& boundaries) {
-    std::vector<kernel::Boundary> result;
-    result.reserve(boundaries.size());
-    for (const Boundary& e : boundaries) result.push_back({static_cast<double>(e.t), e.solid, e.surface});
-    return result;
-}
 
 /// An empty list, in the memory of a used list if its type is the same.
 template <class To, class From>
@@ -112,24 +20,6 @@ std::vector<To> again([[maybe_unused]] std::vector<From>&& used, To*) {
     }
 }
 
-template <class T>
-std::vector<std::byte> bytes_of(const T* values, std::size_t count) {
-    std::vector<std::byte> bytes(count * sizeof(T));
-    if (count) std::memcpy(bytes.data(), values, bytes.size());
-    return bytes;
-}
-
-// ---- A frame in this precision. ----
-
-[[maybe_unused]] const kernel::Frame& convert_frame(const kernel::Frame& f, const kernel::Frame*) { return f; }
-template <class Frame>
-Frame convert_frame(const kernel::Frame& f, const Frame*) {
-    static_assert(offsetof(Frame, word_capacity) - offsetof(Frame, background) ==
-                  offsetof(kernel::Frame, word_capacity) - offsetof(kernel::Frame, background));
-    return converted<Frame, offsetof(kernel::Frame, background) / sizeof(double)>(f);
-}
-decltype(auto) convert_frame(const kernel::Frame& f) { return convert_frame(f, static_cast<const k::Frame*>(nullptr)); }
-
 k::world_ray convert_ray(const Ray& r) {
     return {{static_cast<wide>(r.origin.x), static_cast<wide>(r.origin.y), static_cast<wide>(r.origin.z)},
             {static_cast<wide>(r.direction.x), static_cast<wide>(r.direction.y), static_cast<wide>(r.direction.z)}};
@@ -140,65 +30,13 @@ class Kernels : public ReferenceKernels {
 public:
     Kernels(const CompiledScene& scene, Quartic quartic)
         : met_(met_solids(scene, scene.solids.size())),
-          solids_(
-              convert_all<k::SolidRecord>(scene.solids.get(), [&](const auto& s) { return convert_solid(s, scene); })),
-          reals_(convert_all<real>(scene.reals.get(), [](double x) { return convert(x); })),
-          planes_(convert_all<k::PlaneRecord>(scene.planes.get(), [](const auto& p) { return convert(p); })),
-          inner_nodes_(convert_all<k::BvhNode>(scene.inner_nodes.get(), [](const auto& n) { return convert_node(n); })),
-          nodes_(convert_all<k::BvhNode>(scene.nodes.get(), [](const auto& n) { return convert_node(n); })),
-          g_(k::make_geometry(solids_.data(), reals_.data(), planes_.data(), scene.words.data(), inner_nodes_.data())) {
+          records_(scene),
+          g_(k::make_geometry(records_.solids.data(), records_.reals.data(), records_.planes.data(), scene.words.data(),
+                              records_.inner_nodes.data())) {
         g_.quartic = static_cast<k::u32>(quartic);
     }
 
-    Tables tables() const override {
-        const auto bytes = [](const auto& table) { return std::as_bytes(std::span(table)); };
-        return {bytes(solids_), bytes(reals_), bytes(planes_), bytes(inner_nodes_), bytes(nodes_)};
-    }
-    std::vector<std::byte> frame(const kernel::Frame& f) const override {
-        const k::Frame& frame = convert_frame(f);
-        return bytes_of(&frame, 1);
-    }
-    std::vector<std::byte> lights(const std::vector<kernel::LightRecord>& lights) const override {
-        const auto& records = lights_of(lights);
-        return bytes_of(records.data(), records.size());
-    }
-    void write_rays(std::span<const kernel::RayRecord> rays, std::byte* to) const override {
-        for (const kernel::RayRecord& ray : rays) {
-            const k::RayRecord record = convert(ray);
-            std::memcpy(to, &record, sizeof record);
-            to += sizeof record;
-        }
-    }
-    void check(std::span<const kernel::RayRecord> rays, std::uint64_t first) const override {
-        if (sizeof(wide) > sizeof(float)) return;
-        for (std::size_t i = 0; i < rays.size(); ++i) {
-            const k::world_ray r = k::listed_ray(convert(rays[i]));
-            const wide sum = r.o.x + r.o.y + r.o.z;
-            const wide size2 = r.d.x * r.d.x + r.d.y * r.d.y + r.d.z * r.d.z;
-            if (sum - sum == 0 && size2 > wide(1e-30) && size2 < wide(1e30)) continue;
-            throw Error(Status::usage, "ray " + std::to_string(first + i) +
-                                           ": single precision in world coordinates needs a direction whose length is "
-                                           "between 1e-15 and 1e15, and an origin below 1e38");
-        }
-    }
-    std::size_t ray_bytes() const override { return sizeof(k::RayRecord); }
-    std::size_t boundary_bytes() const override { return sizeof(k::Boundary); }
-    std::size_t overlap_bytes() const override { return sizeof(k::OverlapRecord); }
-    std::size_t wide_bytes() const override { return sizeof(wide); }
-    std::vector<kernel::OverlapRecord> overlap_records(const std::vector<std::byte>& bytes) const override {
-        std::vector<k::OverlapRecord> own(bytes.size() / sizeof(k::OverlapRecord));
-        if (!own.empty()) std::memcpy(own.data(), bytes.data(), own.size() * sizeof(k::OverlapRecord));
-        std::vector<kernel::OverlapRecord> overlap_records;
-        for (const k::OverlapRecord& p : own)
-            overlap_records.push_back({static_cast<double>(p.in), static_cast<double>(p.out), p.ray, p.node});
-        return overlap_records;
-    }
-    std::vector<kernel::Boundary> boundaries(const std::vector<std::byte>& bytes) const override {
-        std::vector<k::Boundary> boundaries(bytes.size() / sizeof(k::Boundary));
-        if (!boundaries.empty()) std::memcpy(boundaries.data(), bytes.data(), bytes.size());
-        return ends_of(std::move(boundaries));
-    }
-
+    void check(const kernel::RayRecord& ray, std::uint64_t number) const override { check_rays({&ray, 1}, number); }
     void append_rows(const kernel::Frame& f, const kernel::RayRecord& ray,
                      const std::vector<kernel::Boundary>& boundaries, const std::vector<kernel::PartitionNode>& nodes,
                      Fields fields, RowMemory& rows,
@@ -258,16 +96,16 @@ public:
                                : k::parameter_at(r, k::range_in_view(&frame, k::listed_ray(record)).from);
         std::vector<k::Boundary> own = again(std::move(boundaries), static_cast<k::Boundary*>(nullptr));
         const auto meet = [&](std::uint32_t solid) {
-            const k::u32 segments = k::collect(g_, solids_[solid], solid, r, t_min, nullptr);
+            const k::u32 segments = k::collect(g_, records_.solids[solid], solid, r, t_min, nullptr);
             if (segments == 0) return;
             const std::size_t first = own.size();
             own.resize(first + 2 * std::size_t{segments});
-            k::collect(g_, solids_[solid], solid, r, t_min, own.data() + first);
+            k::collect(g_, records_.solids[solid], solid, r, t_min, own.data() + first);
         };
         if constexpr (sizeof(real) == sizeof(double)) {
             near.for_each({{ray.ox, ray.oy, ray.oz}, {ray.dx, ray.dy, ray.dz}}, meet);
         } else if constexpr (sizeof(real) < sizeof(double)) {
-            for (std::uint32_t solid = 0; solid < solids_.size(); ++solid)
+            for (std::uint32_t solid = 0; solid < records_.solids.size(); ++solid)
                 if (met_[solid]) meet(solid);
         } else {
             meet_boxes(frame, r, t_min, meet);
@@ -309,8 +147,8 @@ private:
         const k::slab_ray slab = k::make_slab_ray(k::offset_from(k::frame_center(&frame), r.o), r.d, real(frame.radius),
                                                   frame.whole_lines ? -k::REAL_INFINITY : t_min);
         if (!slab.hits_sphere) return;
-        for (std::size_t i = 0; i < nodes_.size();) {
-            const k::BvhNode& node = nodes_[i];
+        for (std::size_t i = 0; i < records_.nodes.size();) {
+            const k::BvhNode& node = records_.nodes[i];
             const bool met = k::box_is_hit(slab, node);
             const std::uint32_t first = node.leaf >> BVH_LEAF_SHIFT;
             for (std::uint32_t n = 0; met && n < (node.leaf & BVH_LEAF_MASK); ++n) meet(first + n);
@@ -318,17 +156,10 @@ private:
         }
     }
     k::vec3 normal_at(const k::ray3& r, const kernel::Boundary& end) const {
-        return k::normal_at(g_, solids_[end.solid], r, static_cast<real>(end.t), end.surface);
+        return k::normal_at(g_, records_.solids[end.solid], r, static_cast<real>(end.t), end.surface);
     }
-    static Converted<k::LightRecord, kernel::LightRecord> lights_of(const std::vector<kernel::LightRecord>& lights) {
-        return convert_all<k::LightRecord>(lights, [](const auto& l) { return convert(l); });
-    }
-
     const std::vector<bool> met_;
-    const Converted<k::SolidRecord, kernel::SolidRecord> solids_;
-    const Converted<real, double> reals_;
-    const Converted<k::PlaneRecord, kernel::PlaneRecord> planes_;
-    const Converted<k::BvhNode, kernel::BvhNode> inner_nodes_, nodes_;
+    const Records records_;
     k::Geometry g_;
 };
 

@@ -38,14 +38,14 @@ Culled lists_of(std::vector<unsigned char> costs, std::span<const kernel::TileNo
 
 Culled cull_on_device(const CompiledScene& compiled, const kernel::Frame& frame) {
     const Settings settings = test::on_compiling_device();
-    const auto kernels = make_kernels(compiled, settings);
+    const auto records = make_converter(compiled, settings);
     Device device(settings.device);
-    const SceneTables scene(device, compiled, kernels->tables());
+    const SceneTables scene(device, compiled, records->tables());
     const Program program(device, assemble_program({CullPass::file}),
                           program_options(device, ProgramNeeds(compiled), settings));
     CullPass kernel_0(device, program);
     BatchBuffers batch(device);
-    batch.frame = Buffer(device, "frame", kernels->frame(frame));
+    batch.frame = Buffer(device, "frame", records->frame(frame));
     wait_for(kernel_0.launch(scene, batch, frame));
     const std::uint32_t tiles = frame.ray_count / tile_rays;
     const auto tally = batch.report.read<std::uint8_t>(BatchBuffers::report_bytes({0, frame.ray_count}));

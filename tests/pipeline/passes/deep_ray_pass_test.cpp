@@ -15,10 +15,10 @@ using namespace csgrt;
 namespace {
 
 struct Shot {
-    explicit Shot(const Scene& scene) : on(scene), pass(on.device, on.compiled, *on.kernels, on.settings) {
-        on.batch.rays = Buffer(on.device, "rays", on.kernels->rays(test::records_of(rays)));
+    explicit Shot(const Scene& scene) : on(scene), pass(on.device, on.compiled, *on.records, on.settings) {
+        on.batch.rays = Buffer(on.device, "rays", on.records->rays(test::records_of(rays)));
         prepared.frame.ray_count = count();
-        on.batch.frame = Buffer(on.device, "frame", on.kernels->frame(prepared.frame));
+        on.batch.frame = Buffer(on.device, "frame", on.records->frame(prepared.frame));
     }
     std::uint32_t count() const { return static_cast<std::uint32_t>(rays.size()); }
     std::optional<PartitionSizes> trace() {

@@ -16,7 +16,7 @@ TEST_CASE("the first-hit pass draws the tiles that are listed, in the order of t
     const std::uint32_t tiles = kernel::tiles_across(on.frame.screen) * kernel::tiles_down(on.frame.screen);
     on.frame.first_ray = 0;
     on.frame.ray_count = tiles * tile_rays;
-    on.batch.frame = Buffer(on.device, "frame", on.kernels->frame(on.frame));
+    on.batch.frame = Buffer(on.device, "frame", on.records->frame(on.frame));
     wait_for(pass.cull().launch(on.tables, on.batch, on.frame));
     const std::vector<std::uint32_t> seen = CullPass::seen({0, tiles * tile_rays}, on.batch);
     REQUIRE(seen.size() > 9);

@@ -12,13 +12,13 @@ namespace csgrt::test {
 struct OnDevice {
     explicit OnDevice(const Scene& scene, View view = {})
         : compiled(compile(scene, {})),
-          kernels(make_kernels(compiled, settings)),
+          records(make_converter(compiled, settings)),
           device(settings.device),
-          tables(device, compiled, kernels->tables()),
+          tables(device, compiled, records->tables()),
           prepared(prepare_frame(compiled, view)),
           frame(prepared.frame),
           batch(device) {
-        tables.set_lights(kernels->lights(prepared.lights));
+        tables.set_lights(records->lights(prepared.lights));
     }
 
     /// Uploads the frame and a list: which rays the kernels are run for.
@@ -26,7 +26,7 @@ struct OnDevice {
         frame.work = static_cast<std::uint32_t>(work);
         frame.ray_count = static_cast<std::uint32_t>(numbers.size()) * (work == Work::tiles ? tile_rays : 1);
         (work == Work::tiles ? batch.tiles : batch.pixels) = Buffer(device, "list", numbers);
-        batch.frame = Buffer(device, "frame", kernels->frame(frame));
+        batch.frame = Buffer(device, "frame", records->frame(frame));
     }
     /// What the reference sees through each pixel, row by row from the top left.
     std::vector<kernel::Pixel> expected() const {
@@ -43,7 +43,7 @@ struct OnDevice {
 
     Settings settings = on_compiling_device();
     CompiledScene compiled;
-    std::unique_ptr<HostKernels> kernels;
+    std::unique_ptr<RecordConverter> records;
     Device device;
     SceneTables tables;
     PreparedFrame prepared;

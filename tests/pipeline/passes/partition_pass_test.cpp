@@ -16,7 +16,7 @@ using namespace csgrt;
 
 TEST_CASE("the partition pass draws the pixels that are listed") {
     test::OnDevice on(stress::scene_of_parts(200), test::small_view(true));
-    PartitionPass pass(on.device, on.compiled, *on.kernels, on.settings);
+    PartitionPass pass(on.device, on.compiled, *on.records, on.settings);
     const std::uint32_t rays = kernel::tiles_across(on.frame.screen) * kernel::tiles_down(on.frame.screen) * tile_rays;
     std::vector<std::uint32_t> list;
     for (std::uint32_t i = 0; i < 300; ++i) list.push_back(i * 7919u % rays);  // in no order
@@ -46,12 +46,12 @@ TEST_CASE("the partition pass draws the pixels that are listed") {
 
 TEST_CASE("the partition pass answers rays as they come") {
     test::OnDevice on(stress::scene_of_parts(200));
-    PartitionPass pass(on.device, on.compiled, *on.kernels, on.settings);
+    PartitionPass pass(on.device, on.compiled, *on.records, on.settings);
     const std::vector<Ray> rays = test::random_rays(on.compiled.bounds, 200);
     PreparedFrame prepared = prepare_rays(on.compiled, 200);
     prepared.frame.ray_count = 200;
-    on.batch.frame = Buffer(on.device, "frame", on.kernels->frame(prepared.frame));
-    on.batch.rays = Buffer(on.device, "rays", on.kernels->rays(test::records_of(rays)));
+    on.batch.frame = Buffer(on.device, "frame", on.records->frame(prepared.frame));
+    on.batch.rays = Buffer(on.device, "rays", on.records->rays(test::records_of(rays)));
     TimedKernels timed;
     const PartitionPass::Input input{on.tables, on.batch, Work::rays, 200};
     REQUIRE(pass.trace_counted(input, timed));
@@ -64,12 +64,12 @@ TEST_CASE("the partition pass answers rays as they come") {
 
 TEST_CASE("kernels that are queued into too little memory write nothing, and report what the rays need") {
     test::OnDevice on(stress::scene_of_parts(200), test::small_view(true));
-    PartitionPass pass(on.device, on.compiled, *on.kernels, on.settings);
+    PartitionPass pass(on.device, on.compiled, *on.records, on.settings);
     const std::uint32_t across = kernel::tiles_across(on.frame.screen),
                         tiles = across * kernel::tiles_down(on.frame.screen);
     on.frame.ray_count = tiles * tile_rays;
     on.frame.rows = on.frame.screen.bottom - on.frame.screen.top;
-    on.batch.frame = Buffer(on.device, "frame", on.kernels->frame(on.frame));
+    on.batch.frame = Buffer(on.device, "frame", on.records->frame(on.frame));
     wait_for(pass.cull().launch(on.tables, on.batch, on.frame));
     const std::vector<std::uint32_t> seen = CullPass::seen({0, tiles * tile_rays}, on.batch);
     REQUIRE(seen.size() > 4);

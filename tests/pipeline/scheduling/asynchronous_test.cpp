@@ -57,11 +57,11 @@ TEST_CASE("asynchronous: the picture is made, whatever was there before and howe
     const Settings settings = test::on_compiling_device();
     Renderer renderer(scene, {}, settings);
     const CompiledScene compiled = compile(scene, {});
-    const auto kernels = make_kernels(compiled, settings);
+    const auto records = make_converter(compiled, settings);
     Device first(settings.device);
-    const Pipeline needs(first, compiled, *kernels, settings);
+    const Pipeline needs(first, compiled, *records, settings);
     Device device(settings.device, room ? first.allocated() + room : 0);
-    Pipeline pipeline(device, compiled, *kernels, settings, Readback::asynchronous);
+    Pipeline pipeline(device, compiled, *records, settings, Readback::asynchronous);
 
     Framebuffer framebuffer;
     Channels pixels;
@@ -129,13 +129,13 @@ struct Lined {
                    Readback readback = Readback::asynchronous)
         : renderer(scene, {}, settings),
           compiled(compile(scene, {})),
-          kernels(make_kernels(compiled, settings)),
+          records(make_converter(compiled, settings)),
           device(settings.device, room ? bytes_of_scene() + room : 0),
-          pipeline(device, compiled, *kernels, settings, readback, most_rays) {}
+          pipeline(device, compiled, *records, settings, readback, most_rays) {}
 
     std::uint64_t bytes_of_scene() const {
         Device alone(settings.device);
-        const Pipeline scene(alone, compiled, *kernels, settings);
+        const Pipeline scene(alone, compiled, *records, settings);
         return alone.allocated();
     }
 
@@ -200,7 +200,7 @@ struct Lined {
     Settings settings = test::on_compiling_device();
     Renderer renderer;
     CompiledScene compiled;
-    std::unique_ptr<HostKernels> kernels;
+    std::unique_ptr<RecordConverter> records;
     Device device;
     Pipeline pipeline;
 };
@@ -361,11 +361,11 @@ std::size_t count_parts(const Lined& lined, int width, int height) {
     prepared.frame.rows = prepared.frame.screen.bottom - prepared.frame.screen.top;
     Device device(lined.settings.device);
     FirstHitPass first_hits(device, lined.compiled, lined.settings);
-    const SceneTables scene(device, lined.compiled, lined.kernels->tables());
+    const SceneTables scene(device, lined.compiled, lined.records->tables());
     BatchBuffers batch(device);
     TileListPass list(device);
     list.build();
-    batch.frame = Buffer(device, "frame", lined.kernels->frame(prepared.frame));
+    batch.frame = Buffer(device, "frame", lined.records->frame(prepared.frame));
     wait_for(first_hits.cull().launch(scene, batch, prepared.frame));
     for (const Event& event : list.list({0, rays}, batch, TileListPass::most_in_parts(device))) wait_for(event);
     const auto entries = batch.tiles.read<std::uint32_t>(batch.report.read<kernel::BatchReport>(1).front().entries);
@@ -432,7 +432,7 @@ TEST_CASE("asynchronous: whole lines of a wide picture, in little memory and in 
 
 TEST_CASE("asynchronous: parts of one device's picture, a frame like the last one, and one that sees nothing") {
     Lined lined(stress::scene_of_parts(20));
-    DeviceGroup pipelines(plan_devices(lined.settings).first, lined.compiled, *lined.kernels, lined.settings,
+    DeviceGroup pipelines(plan_devices(lined.settings).first, lined.compiled, *lined.records, lined.settings,
                           Readback::asynchronous);
     View view{.width = 1600, .height = 1000};
     view.camera.view_size = lined.compiled.radius;  // from edge to edge

@@ -1,22 +1,24 @@
-// Host kernels: a compiled scene in one precision. They have the tables as that precision's kernels read them, and the
-// kernels' geometry on the host. Callers stay in double; the bytes for the bus are converted here.
+// Record converter: turns a compiled scene, frames and rays into the bytes that a device's kernels read, in their
+// precision, and what kernels write back into records in double.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
-#include "compiled_scene.hpp"
+#include <csgrt/settings.hpp>
+
+#include "compile/compiled_scene.hpp"
 
 namespace csgrt {
 
-/// The kernels of one precision as the host sees them. Each precision (double, single, single in the world's
-/// coordinates, 113 bits) is one implementation, made of the same kernel sources. Devices use it to convert tables,
-/// frames and rays to bytes, and results back to double.
-class HostKernels {
+/// The records of one precision (double, single, single in the world's coordinates), each of which is one
+/// implementation. Devices use it to convert tables, frames and rays to bytes, and results back to double.
+class RecordConverter {
 public:
-    virtual ~HostKernels() = default;
+    virtual ~RecordConverter() = default;
 
     /// The scene's tables that depend on the precision. They live as long as the compiled scene and this object.
     struct Tables {
@@ -41,5 +43,12 @@ public:
     virtual std::vector<kernel::Boundary> boundaries(const std::vector<std::byte>& bytes) const = 0;
     virtual std::vector<kernel::OverlapRecord> overlap_records(const std::vector<std::byte>& bytes) const = 0;
 };
+
+/// Makes a converter by the settings' precision. `scene` must outlive the result.
+std::unique_ptr<RecordConverter> make_converter(const CompiledScene& scene, const Settings& settings = {});
+
+std::unique_ptr<RecordConverter> make_double_converter(const CompiledScene& scene);
+std::unique_ptr<RecordConverter> make_single_converter(const CompiledScene& scene);
+std::unique_ptr<RecordConverter> make_single_world_converter(const CompiledScene& scene);
 
 }  // namespace csgrt
