@@ -5,7 +5,7 @@ if(CSGRT_SANITIZE AND CMAKE_CXX_COMPILER_ID MATCHES "Clang" AND TARGET csgrt_cli
     target_link_options(csgrt_fuzz PRIVATE -fsanitize=fuzzer)
     target_link_libraries(csgrt_fuzz PRIVATE csgrt_core csgrt_cli_objects
         $<TARGET_NAME_IF_EXISTS:csgrt_image_objects> $<TARGET_NAME_IF_EXISTS:csgrt_view_objects>)
-    add_dependencies(csgrt_tests csgrt_fuzz)
+    add_dependencies(csgrt_memory_tests csgrt_fuzz)
     set(fuzzed json asc g rays view)
     if(CSGRT_VIEW)
         target_compile_definitions(csgrt_fuzz PRIVATE CSGRT_HAVE_VIEW)
@@ -40,6 +40,7 @@ if(CSGRT_SANITIZE AND CMAKE_CXX_COMPILER_ID MATCHES "Clang" AND TARGET csgrt_cli
         add_test(NAME fuzz/${reader} COMMAND ${command} -max_total_time=5)
         add_test(NAME fuzz/hour/${reader} CONFIGURATIONS Long COMMAND ${command} ${more} -max_total_time=3600)
         set_tests_properties(fuzz/${reader} fuzz/hour/${reader} PROPERTIES ENVIRONMENT "CSGRT_FUZZ=${reader}")
+        set_tests_properties(fuzz/${reader} PROPERTIES LABELS memory)
         set_tests_properties(fuzz/hour/${reader} PROPERTIES LABELS fuzz TIMEOUT 4000)
     endforeach()
     add_test(NAME fuzz/coverage CONFIGURATIONS Long COMMAND ${CMAKE_COMMAND} -DROOT=${PROJECT_SOURCE_DIR}
