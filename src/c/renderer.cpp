@@ -11,20 +11,20 @@ struct csgrt_verifier {
 
 namespace {
 
-thread_local std::vector<DeviceInfo> found;  // by the last csgrt_devices()
+thread_local std::vector<DeviceInfo> last_devices;  // by the last csgrt_devices()
 
 }  // namespace
 
 csgrt_status csgrt_devices(size_t* count) {
     return call([&] {
         std::size_t& number = CSGRT_NEED(count);
-        found = devices();
-        number = found.size();
+        last_devices = devices();
+        number = last_devices.size();
     });
 }
 
 csgrt_status csgrt_device(size_t index, csgrt_device_info* info) {
-    return call([&] { fill(info, shown<csgrt_device_info>(item(found, index)), "info"); });
+    return call([&] { fill(info, shown<csgrt_device_info>(item(last_devices, index)), "info"); });
 }
 
 csgrt_status csgrt_prepare_devices(const csgrt_settings* settings) {
