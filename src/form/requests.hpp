@@ -160,7 +160,7 @@ inline constexpr auto of<View> = Form{
 /// A member's sentence, with its bounds and with what the number stands for that means "not given".
 template <class Member, class Value>
 std::string whole_sentence(const Member& member, const Value& usual) {
-    std::string text = member.help;
+    std::string sentence = member.help;
     using Kind = std::remove_cvref_t<decltype(member.kind)>;
     std::string bounds;
     if constexpr (std::is_same_v<Kind, Whole> || std::is_same_v<Kind, Amount>) {
@@ -173,8 +173,8 @@ std::string whole_sentence(const Member& member, const Value& usual) {
             bounds +=
                 (bounds.empty() ? "" : "; ") + std::string(usual < Value(0) ? "-1: " : "0: ") + member.option.absent;
     }
-    if (!bounds.empty()) text += " " + bounds + ".";
-    return text;
+    if (!bounds.empty()) sentence += " " + bounds + ".";
+    return sentence;
 }
 
 }  // namespace csgrt::form
