@@ -80,8 +80,7 @@ typedef struct csgrt_box {
 } csgrt_box;
 typedef struct csgrt_plane {
     csgrt_vec3 normal;
-    /// From the origin, along the normal.
-    double distance;
+    double distance;  ///< millimetres, from the origin, whatever the normal's length
 } csgrt_plane;
 
 /// Called with `user` and the done fraction, on the calling thread. 0 ends the call (CSGRT_ERROR_INTERRUPTED).
@@ -115,14 +114,14 @@ typedef struct csgrt_settings {
     double device_timeout;
     /// Bytes of memory to use on each device; a frame that needs more is drawn in batches. 0: what the device has.
     uint64_t max_memory;
-    /// Most solids of the model, as often as its trees use them; they are counted before any is made. 1 to 20000000; 0:
-    /// what docs/limits.md says.
+    /// The largest number of instances: a solid that the trees use n times is n. They are counted before any is made. 1
+    /// to 20000000; 0: what docs/limits.md says.
     uint64_t max_instances;
     /// Numbers of the geometry; single ones are relative to the eye.
     int precision;
     /// Which ends of segments along a ray count as one.
     int tolerance_rule;
-    /// Millimetres along a ray, for the rule of a length; negative: the scene's.
+    /// Millimetres along a ray, if tolerance_rule is a length; negative: the scene's.
     double tolerance;
     /// Regions of air are part of the model.
     int air;
@@ -358,7 +357,7 @@ typedef struct csgrt_region_info {
     /// "/top/.../region": the members on the way down, by their names. No other region has the same path, and edits of
     /// other regions do not change it: it is the key of the region in a later Model.
     const char* path;
-    /// FASTGEN's kind of the region.
+    /// None, plate or volume, as in FASTGEN.
     int fastgen;
     /// BRL-CAD's number of the region, which is not its index.
     int region_id;
@@ -366,7 +365,7 @@ typedef struct csgrt_region_info {
     int air;
     /// BRL-CAD's number of the material.
     int material_id;
-    /// BRL-CAD's percentage of the line of sight.
+    /// BRL-CAD's attribute los, percent; kept for conversion.
     int los;
     /// Display values: red, green, blue; 0 to 1.
     csgrt_vec3 color;
@@ -475,7 +474,7 @@ typedef struct csgrt_hits {
     size_t size;
     size_t count;
     double* t_hit;                    ///< infinity: a miss
-    int32_t *region_ids, *solid_ids;  ///< -1: a miss; of a solid also where the range begins inside
+    int32_t *region_ids, *solid_ids;  ///< -1: a miss; solid_ids, too, where the range begins inside the region
     csgrt_vec3* normals;              ///< zeros where the solid is -1
 } csgrt_hits;
 

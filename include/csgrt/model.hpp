@@ -20,11 +20,11 @@ struct RegionInfo {
     /// "/top/.../region": the members on the way down, by their names. No other region has the same path, and edits
     /// of other regions do not change it: it is the key of the region in a later Model.
     std::string path = {};
-    Fastgen fastgen = Fastgen::none;  ///< FASTGEN's kind of the region.
+    Fastgen fastgen = Fastgen::none;  ///< None, plate or volume, as in FASTGEN.
     int region_id = 0;                ///< BRL-CAD's number of the region, which is not its index.
     int air = 0;                      ///< BRL-CAD's number of the air; other than 0: a region of air.
     int material_id = 0;              ///< BRL-CAD's number of the material.
-    int los = 0;                      ///< BRL-CAD's percentage of the line of sight.
+    int los = 0;                      ///< BRL-CAD's attribute los, percent; kept for conversion.
     Vec3 color{1, 1, 1};              ///< Display values: red, green, blue; 0 to 1.
     Finish finish = {};
     State state = State::shown;  ///< Whether pictures show it.
@@ -59,7 +59,7 @@ public:
     /// Faults that the scene's reader tolerated, objects that were left out, and other notes, each once per object and
     /// reason. Pictures have the first of them in their attribute csgrt:warnings.
     const std::vector<Warning>& warnings() const;
-    /// The tolerance in millimetres, in double precision by the settings' rule.
+    /// Millimetres: boundaries along a ray that are closer than this count as one. See Settings::tolerance_rule.
     double tolerance() const;
     /// The scene with all edits: a Model compiled from it is the same.
     Scene scene() const;

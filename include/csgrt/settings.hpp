@@ -27,13 +27,13 @@ struct Settings {
     double device_timeout = -1;
     /// Bytes of memory to use on each device; a frame that needs more is drawn in batches. 0: what the device has.
     std::uint64_t max_memory = 0;
-    /// Most solids of the model, as often as its trees use them; they are counted before any is made. A scene of more
-    /// throws Error (scene). One with many parts counts as several (docs/limits.md). 0: Limits::instances, or twice as
-    /// many as the scene's solids once each, if that is more. At most Limits::most_instances.
+    /// The largest number of instances: a solid that the trees use n times is n. They are counted before any is made. A
+    /// scene of more throws Error (scene). A solid with many parts counts as several (docs/limits.md). 0:
+    /// Limits::instances, or twice the number of the scene's solids if that is more. At most Limits::most_instances.
     std::uint64_t max_instances = 0;
     Precision precision = Precision::double_;      ///< Numbers of the geometry; single ones are relative to the eye.
     Tolerance tolerance_rule = Tolerance::length;  ///< Which ends of segments along a ray count as one.
-    double tolerance = -1;  ///< Millimetres along a ray, for the rule of a length; negative: the scene's.
+    double tolerance = -1;  ///< Millimetres along a ray, if tolerance_rule is a length; negative: the scene's.
     bool air = false;       ///< Regions of air are part of the model.
     /// Solids of types that csgrt does not know are left out, with a warning, as they always are in a BRL-CAD database
     /// that is not read strictly.

@@ -14,13 +14,6 @@
 namespace csgrt::form {
 
 template <>
-inline constexpr auto of<Plane> = Form{
-    plain("plane"),
-    required("normal", &Plane::normal, vector),
-    required("distance", &Plane::distance, number, "Millimetres, from the origin, whatever the normal's length."),
-};
-
-template <>
 inline constexpr auto of<Ray> = Form{
     plain("ray"),
     required("origin", &Ray::origin, vector, "Millimetres."),
@@ -98,11 +91,11 @@ inline constexpr auto of<RegionInfo> = Form{
     required("path", &RegionInfo::path, text,
              "\"/top/.../region\": the members on the way down, by their names. No other region has the same path, "
              "and edits of other regions do not change it: it is the key of the region in a later Model."),
-    required("fastgen", &RegionInfo::fastgen, Named{&fastgen_names}, "FASTGEN's kind of the region."),
+    required("fastgen", &RegionInfo::fastgen, Named{&fastgen_names}, "None, plate or volume, as in FASTGEN."),
     required("region_id", &RegionInfo::region_id, integer, "BRL-CAD's number of the region, which is not its index."),
     required("air", &RegionInfo::air, integer, "BRL-CAD's number of the air; other than 0: a region of air."),
     required("material_id", &RegionInfo::material_id, integer, "BRL-CAD's number of the material."),
-    required("los", &RegionInfo::los, integer, "BRL-CAD's percentage of the line of sight."),
+    required("los", &RegionInfo::los, integer, "BRL-CAD's attribute los, percent; kept for conversion."),
     required("color", &RegionInfo::color, vector, "Display values: red, green, blue; 0 to 1."),
     required("finish", &RegionInfo::finish, special),
     required("state", &RegionInfo::state, Named{&state_names}, "Whether pictures show it."),

@@ -61,7 +61,8 @@ inline constexpr auto of<Settings> = Form{
               .changes_answers = false}),
     optional(
         "max_instances", &Settings::max_instances, Amount{1, Limits::most_instances},
-        "Most solids of the model, as often as its trees use them; they are counted before any is made.",
+        "The largest number of instances: a solid that the trees use n times is n. They are counted before any is "
+        "made.",
         {.concern = Concern::model, .name = "--max-instances", .value = "N", .absent = "what docs/limits.md says"}),
     optional("precision", &Settings::precision, Named{&every_precision, &precision_names},
              "Numbers of the geometry; single ones are relative to the eye.",
@@ -69,7 +70,8 @@ inline constexpr auto of<Settings> = Form{
     optional("tolerance_rule", &Settings::tolerance_rule, Named{&every_tolerance, &tolerance_names},
              "Which ends of segments along a ray count as one.", {.concern = Concern::work}),
     optional("tolerance", &Settings::tolerance, number,
-             "Millimetres along a ray, for the rule of a length; negative: the scene's.", {.concern = Concern::work}),
+             "Millimetres along a ray, if tolerance_rule is a length; negative: the scene's.",
+             {.concern = Concern::work}),
     optional("air", &Settings::air, flag, "Regions of air are part of the model.",
              {.concern = Concern::model, .name = "--air"}),
     optional("skip_unsupported", &Settings::skip_unsupported, flag,

@@ -153,7 +153,7 @@ TermsPart flatten_part(const Source& source, std::span<const Term> terms, std::a
 /// A term that is not a region, and why.
 struct NoRegion {
     std::size_t term;
-    bool contains_space;  ///< false: the term is empty
+    bool contains_space;  ///< true: the term holds the space where no solid is; false: it is empty
     std::string path;
     Place place;
 };

@@ -20,7 +20,8 @@ namespace csgrt {
 /// pack_sketches.cpp the solids of sketches, pack_meshes.cpp those of triangles.
 struct Packer {
     const Matrix& matrix;
-    Shapes& scene;  ///< solids without a fixed size write there; others do not touch it: see is_small
+    Shapes&
+        scene;  ///< only solids of no fixed size (meshes, sketches, cells) write to it: see IsSmall in pack_scene.cpp
     SharedParts& shared;
     std::vector<double>& reals;  ///< this solid's begin at first_real; the vector is the scene's for solids without a
                                  ///< fixed size

@@ -85,7 +85,8 @@ std::vector<Wide> points_on(std::uint32_t type, const double* reals, const WideM
     return points;
 }
 
-/// The key of a surface: a point that belongs to it alone, and its size there.
+/// The key by which equal surfaces are found. The point is the centre of a ball or torus, the apex of a cone, or the
+/// point of a cylinder's axis that is nearest to the scene's middle. The size measures the width.
 struct Key {
     Wide point;
     long double size;

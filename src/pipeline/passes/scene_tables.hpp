@@ -18,7 +18,7 @@ public:
     bool takes(const CompiledScene& scene) const;
     /// Takes such a scene: copies the tables that differ. Waits.
     void take(const CompiledScene& scene, const RecordConverter::Tables& tables);
-    /// Sets a frame's lights, as its kernels read them. Waits.
+    /// Uploads a frame's lights, as the kernels' records. Returns when the upload is done.
     void set_lights(const std::vector<std::byte>& lights);
 
     const Buffer& nodes() const { return nodes_; }  ///< the scene's hierarchy

@@ -52,7 +52,7 @@ private:
 
         Stage stage = Stage::free;
         RayBatch rays;
-        kernel::Frame frame{};  ///< of the batch's rays; from tracing on, of the rays of its tiles that see anything
+        kernel::Frame frame{};  ///< of all rays of the batch; after culling, of those in tiles that may see the scene
         BatchBuffers buffers;
         ReadbackRing::DevicePicture* picture = nullptr;
         QueuedUpload frame_upload;

@@ -130,7 +130,8 @@ private:
         }
     }
 
-    /// Returns whether the object is a combination whose tree is walked.
+    /// Begins the visit of an object, and reports its faults. Returns whether it is a combination, whose tree the
+    /// caller walks then.
     bool enter(std::uint32_t object) {
         objects_[object].visit = Visit::open;
         const bool is_solid = names_.is_solid(object);
