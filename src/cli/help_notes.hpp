@@ -123,8 +123,8 @@ or, ! complement.
 
 The object that --json prints has the keys title, units, bounds (low and high corner), solids (how
 many), regions (each with index, path, fastgen, region_id, air, material_id, los, color, state,
-bounds) and warnings (each with object, place, reason). Bounds are millimetres; a box that is empty and a number
-that is infinite are null.
+bounds) and warnings (each with object, place, reason). Bounds are millimetres; a box that is empty
+and a number that is infinite are null.
 )";
 
 inline constexpr const char* convert_notes = R"(

@@ -76,7 +76,7 @@ TEST_CASE("each time that memory ends in PoCL the command ends with status 5 or 
 TEST_CASE("an allocation that fails where pictures are read or written is an error or changes nothing",
           "[promise:failures]") {
     NEEDS_COMMAND();
-    fail_each("CSGRT_FAIL_NEW", 1000 * some_faults, true, {5, 6});
+    fail_each("CSGRT_FAIL_NEW", 100 * some_faults, true, {5, 6});
 }
 
 TEST_CASE("every 1000th allocation that fails where pictures are read or written is an error or changes nothing",

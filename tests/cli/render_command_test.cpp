@@ -38,13 +38,23 @@ TEST_CASE("--stats holds the promised keys in their order") {
     NEEDS_COMMAND();
     const Folder folder;
     const std::string scene = folder.write("balls.asc", two_balls);
-    const std::vector<std::string> expected = {
-        "device",   "awaited_device", "precision",     "method",          "tolerance",  "size",
-        "rays",     "ends",           "segments",      "partitions",      "used",       "allocated",
-        "overlaps", "device_bytes",   "segment_bytes", "partition_bytes", "batches",    "ms",
-        "load",     "compile",        "build",         "count_segments",  "scan",       "store_segments",
-        "weave",    "evaluate",       "shade",         "cull_tiles",      "first_hits", "kernels",
-        "frame",    "write"};
+    const std::vector<std::string> expected = {"device",        "awaited_device",
+                                               "precision",     "method",
+                                               "tolerance",     "size",
+                                               "rays",          "ends",
+                                               "segments",      "partitions",
+                                               "used",          "allocated",
+                                               "overlaps",      "device_bytes",
+                                               "segment_bytes", "partition_bytes",
+                                               "batches",       "ms",
+                                               "load",          "compile",
+                                               "build",         "count_segments",
+                                               "scan",          "store_segments",
+                                               "weave",         "evaluate",
+                                               "shade",         "rows",
+                                               "cull_tiles",    "first_hits",
+                                               "kernels",       "frame",
+                                               "write"};
     const Result once = run({scene, "all.g", "--reference", "--size", "40x30", "--stats", "-"});
     REQUIRE(once.status == 0);
     CHECK(once.err.empty());
