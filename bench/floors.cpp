@@ -47,8 +47,8 @@ Floor count_floor(const std::string& workload, const Scene& scene, const std::ve
     floor.words = per_pixel(kernel::counted.words);
     floor.segments = per_pixel(run.boundaries.size()) / 2;
     floor.partitions = per_pixel(partitions);
-    floor.bytes = per_pixel(bytes_of(run.offsets) + bytes_of(run.boundaries) + bytes_of(run.nodes) + bytes_of(run.bits) +
-                            bytes_of(run.tallies) + bytes_of(run.picture));
+    floor.bytes = per_pixel(bytes_of(run.offsets) + bytes_of(run.boundaries) + bytes_of(run.nodes) +
+                            bytes_of(run.bits) + bytes_of(run.tallies) + bytes_of(run.picture));
     return floor;
 }
 
