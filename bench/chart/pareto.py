@@ -6,7 +6,7 @@ NOISE = 0.1
 JUDGE = "113 bits"
 # A method that answers a smaller share of the rays does not compete.
 WHOLE = 0.999
-# What a row errs by. None: it tells no distances, or one is infinite.
+# Errors of a row. None: the row tells no distances, or a distance is infinite.
 ERRORS = {
     "wrong rays": lambda row: row["wrong_ppm"],
     "distance, mm": lambda row: row["error_mm"]["p999"] if row["ends"] else None,

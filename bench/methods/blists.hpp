@@ -16,8 +16,8 @@ struct BlistLeaf {
     std::uint32_t on_true, on_false;
 };
 
-/// Of a tree with the heavier operands on the left (Grouping::heavy_left). A xor has its right operand twice. The first
-/// leaf is asked first; without leaves the point is out. Throws Error (usage): over 2^26 leaves.
+/// The Blist of a tree with the heavier operands on the left (Grouping::heavy_left). A xor has its right operand twice.
+/// The first leaf is asked first; without leaves the point is out. Throws Error (usage): over 2^26 leaves.
 std::vector<BlistLeaf> blist_of(const PositiveTree& tree);
 
 /// How many names are wanted at a time: the places that leaves passed may have told to go to next.

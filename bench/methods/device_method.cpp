@@ -35,7 +35,7 @@ std::string compiling_device(const std::string& method, const std::string& choic
     return std::to_string(chosen);
 }
 
-/// One text for all methods: where a driver keeps what it has compiled, the kernels in front are compiled once. A file
+/// The source of all methods in one text: where a driver keeps programs, the kernels in front are compiled once. A file
 /// with a function NAME_holds gets its kernel, evaluate_NAME, from each_partition.h.
 std::string source() {
     std::map<std::string, std::string> texts;

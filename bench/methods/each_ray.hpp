@@ -1,5 +1,5 @@
-// What the methods that run on the processors share: the loop over rays, a worker for each thread; and what a worker of
-// those that search or sort along the ray knows of it.
+// Parts of the methods that run on processors: the loop over rays with a worker for each thread, and the candidates and
+// surfaces of a ray, for workers that search or sort along the ray.
 #pragma once
 
 #include <limits>
@@ -22,7 +22,7 @@ namespace csgrt::bench {
 
 inline constexpr std::size_t rays_of_a_tile = 64;
 
-/// What a worker counts: a figure is their quotient, or where `of` is 0 the mean of all rays.
+/// A figure that a worker counts: the quotient of both, or where `of` is 0 the mean of all rays.
 struct Count {
     std::uint64_t count = 0, of = 0;
 };
@@ -86,7 +86,7 @@ std::unique_ptr<Tracer> trace_each_ray(Shared shared, const TraceOptions& option
                                                      options.threads);
 }
 
-/// What the threads of these methods share; each method adds its own.
+/// The scene that the threads of a method share; each method adds its own members.
 struct SharedScene {
     SharedScene(const Subject& subject, const TraceOptions& options)
         : rays(subject.compiled), trees(subject.compiled, options.planted), first_hits(options.first_hits) {}
@@ -124,7 +124,8 @@ protected:
         for (const LiveTrees::Root& root : live_.roots()) answer.answered = answer.answered && walk(root);
         if (answer.answered) answer.stretches = owners(claimed_, epsilon, shared_.first_hits);
     }
-    /// Of first hits: a stretch that ends behind the ray's start, so what begins behind `in` + `slack` does not matter.
+    /// Notes, for first hits, a stretch that ends behind the ray's start: what begins behind `in` + `slack` does not
+    /// matter.
     void keep_nearest(double in, double slack) { nearest_ = std::min(nearest_, in + slack); }
 
     /// Where the ray meets each candidate's surfaces, by kept(distance): in, out, in, ...; ascending.
@@ -139,7 +140,7 @@ protected:
             begin_.push_back(surfaces.size());
         }
     }
-    /// Those of one candidate.
+    /// The surfaces of one candidate.
     template <class T>
     std::span<const T> surfaces_of(std::uint32_t candidate, const std::vector<T>& surfaces) const {
         return std::span(surfaces).subspan(begin_[candidate], begin_[candidate + 1] - begin_[candidate]);

@@ -9,7 +9,7 @@ namespace csgrt::bench {
 /// numbers (kernels/covered.h).
 enum class Gate : std::uint8_t { leaf = 0, union_ = 1, intersection = 2, xor_ = 3 };
 
-/// Of a gate that is no leaf.
+/// The value of a gate that is no leaf.
 inline bool value_of(Gate gate, bool a, bool b) {
     return gate == Gate::intersection ? a && b : gate == Gate::union_ ? a || b : a != b;
 }

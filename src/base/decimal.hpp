@@ -64,5 +64,10 @@ inline void append_shortest(std::string& out, double value) {
     char text[32];
     out.append(text, std::to_chars(text, text + sizeof text, value).ptr);
 }
+inline std::string shortest(double value) {
+    std::string text;
+    append_shortest(text, value);
+    return text;
+}
 
 }  // namespace csgrt

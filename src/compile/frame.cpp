@@ -198,11 +198,7 @@ PreparedFrame prepare_frame(const CompiledScene& scene, const View& view, double
     if (view.samples < 1 || view.samples > 256) refuse("a pixel has 1 to 256 samples");
     if ((view.channels & ~(channel::all | channel::display | channel::ghosts)) != 0)
         refuse("the channels " + std::to_string(view.channels) + " have bits that no channel has");
-    const auto is_given = [&](std::string_view member) {
-        return (member == "eye" && camera.eye) || (member == "center" && camera.center) ||
-               (member == "look_at" && camera.look_at) || (member == "view_size" && camera.view_size);
-    };
-    if (const CameraConflict* conflict = conflict_of(camera, is_given)) refuse(text_of(*conflict));
+    if (const CameraConflict* conflict = conflict_of(camera)) refuse(text_of(*conflict));
     const PixelRectangle part = view.part ? *view.part : PixelRectangle{0, 0, view.width, view.height};
     if (part.left < 0 || part.top < 0 || part.width < 1 || part.height < 1 || part.left > view.width - part.width ||
         part.top > view.height - part.height)

@@ -1,9 +1,9 @@
 // A camera that is given in part: what is given replaces what it contradicts in the scene's.
 #pragma once
 
-#include <initializer_list>
 #include <string>
 #include <string_view>
+#include <type_traits>
 
 #include "form/requests.hpp"
 
@@ -35,6 +35,17 @@ const CameraConflict* conflict_of(const Camera& given, const IsGiven& is_given) 
             (!conflict.in_perspective || given.perspective > 0))
             return &conflict;
     return nullptr;
+}
+/// The same among the members that have values of their own: angles always have one.
+inline const CameraConflict* conflict_of(const Camera& camera) {
+    return conflict_of(camera, [&](std::string_view name) {
+        bool is_given = false;
+        form::for_members(form::of<Camera>, [&](const auto& member) {
+            if constexpr (!std::is_same_v<std::remove_cvref_t<decltype(camera.*member.at)>, double>)
+                is_given |= member.key.member == name && (camera.*member.at).has_value();
+        });
+        return is_given;
+    });
 }
 
 /// `camera` with the members of `given` that is_given(name) tells, without what they contradict.

@@ -89,7 +89,7 @@ struct Planes {};
 template <class Names, class Offered = Names>
 struct Named {
     const Names* names;
-    const Offered* offered;  ///< those that the command and Python take
+    const Offered* offered;  ///< those that the command takes
     constexpr Named(const Names* all) : names(all), offered(all) {}
     constexpr Named(const Names* all, const Offered* some) : names(all), offered(some) {}
 };

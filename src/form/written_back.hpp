@@ -13,12 +13,6 @@
 
 namespace csgrt {
 
-/// The shortest decimal that is read as the same double.
-inline std::string shortest(double value) {
-    std::string text;
-    append_shortest(text, value);
-    return text;
-}
 inline std::string shortest(const Vec3& v) { return shortest(v.x) + "," + shortest(v.y) + "," + shortest(v.z); }
 
 /// " --samples 4": one member's option, as the command reads it. `usual`: what needs no option.

@@ -25,18 +25,22 @@
 namespace csgrt {
 
 void check_numbers(const Settings& settings) {
-    for (const auto& [name, number] :
-         {std::pair("tolerance", settings.tolerance), std::pair("device_timeout", settings.device_timeout)})
-        if (!std::isfinite(number))
-            throw Error(Status::usage, std::string("the setting ") + name + " is " + number_text(number) +
-                                           ", and must be a finite number; -1 is the default");
     form::for_members(form::of<Settings>, [&](const auto& member) {
-        if constexpr (std::is_same_v<std::remove_cvref_t<decltype(member.kind)>, form::Amount>) {
+        using Kind = std::remove_cvref_t<decltype(member.kind)>;
+        const auto refuse = [&](const std::string& number, const std::string& expected) {
+            throw Error(Status::usage, "the setting " + std::string(member.key.member) + " is " + number +
+                                           ", and must be " + expected);
+        };
+        if constexpr (std::is_same_v<Kind, form::Number>) {
+            if (const double number = settings.*member.at; !std::isfinite(number))
+                refuse(number_text(number), "a finite number; -1 is the default");
+        } else if constexpr (std::is_same_v<Kind, form::Amount>) {
             const std::uint64_t number = settings.*member.at, low = member.kind.low, high = member.kind.high;
             if (number != 0 && (number < low || number > high))
-                throw Error(Status::usage, "the setting " + std::string(member.key.member) + " is " +
-                                               std::to_string(number) + ", and must be from " + std::to_string(low) +
-                                               " to " + std::to_string(high) + ", or 0, the default");
+                refuse(std::to_string(number),
+                       "from " + std::to_string(low) + " to " + std::to_string(high) + ", or 0, the default");
+        } else {
+            static_cast<void>(refuse);
         }
     });
 }

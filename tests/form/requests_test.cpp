@@ -103,7 +103,7 @@ template <class S>
 std::string c_struct(bool is_sized = true) {
     const S usual_struct{};
     std::string text = "typedef struct " + c_name<S>() + " {\n" + (is_sized ? "    size_t size;\n" : "");
-    form::for_members(form::of<S>, [&]<class Member>(const Member& member) {
+    form::for_members(form::of<S>, [&](const auto& member) {
         using Value = std::remove_cvref_t<decltype(form::member_of(member, std::declval<S&>()))>;
         if constexpr (std::is_same_v<Value, Finish>) return;  // csgrt_model_finish() gives it
         const Value& usual = form::member_of(member, usual_struct);

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <utility>
 
+#include "base/decimal.hpp"
 #include "form/answers.hpp"
 #include "partitions.hpp"
 
@@ -15,12 +16,6 @@ namespace {
 std::string milliseconds(double value) {
     char text[64];
     std::snprintf(text, sizeof text, "%.4f", std::isfinite(value) ? value : 0.0);  // JSON has no infinity
-    return text;
-}
-
-std::string shortest(double value) {
-    std::string text;
-    append_shortest(text, value);
     return text;
 }
 
