@@ -86,7 +86,7 @@ TEST_CASE("device and reference agree in both single precisions, each scene with
     }
 }
 
-TEST_CASE("contraction changes last digits and no region", "[agreement]") {
+TEST_CASE("contraction changes last digits and no region", "[.pocl][agreement]") {
     const std::string folder = test::folder("CSGRT_SCENES");
     if (folder.empty()) return;
     const Scene scene = load_scene(folder + "/solids.json");
