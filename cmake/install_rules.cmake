@@ -42,7 +42,11 @@ install(FILES ${CMAKE_CURRENT_BINARY_DIR}/csgrt.pc DESTINATION ${CMAKE_INSTALL_L
 
 install(FILES src/cli/csgrt.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME csgrt)
 install(FILES scenes/csgrt.schema.json DESTINATION ${CMAKE_INSTALL_DATADIR}/csgrt)
-install(FILES README.md CHANGELOG.md LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
-install(DIRECTORY docs/ DESTINATION ${CMAKE_INSTALL_DOCDIR}/docs FILES_MATCHING PATTERN "*.md" PATTERN "*.png")
-install(FILES scenes/README.md DESTINATION ${CMAKE_INSTALL_DOCDIR}/scenes)
+# Pages, and the files to which their links lead; tests/install_test.cmake follows each link.
+install(FILES README.md CHANGELOG.md CONTRIBUTING.md SECURITY.md LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
+foreach(folder docs docs/images scenes scenes/pictures bench bench/campaign bench/chart tests/stress
+        tests/integration/truth)
+    file(GLOB pages CONFIGURE_DEPENDS ${folder}/*.md ${folder}/*.png ${folder}/*.ipynb)
+    install(FILES ${pages} DESTINATION ${CMAKE_INSTALL_DOCDIR}/${folder})
+endforeach()
 install(DIRECTORY examples DESTINATION ${CMAKE_INSTALL_DOCDIR})
