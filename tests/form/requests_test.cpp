@@ -274,13 +274,14 @@ std::string names_line(const std::string& title, const Names& names) {
 
 std::string settings_page() {
     return "# Settings, views and answers\n\n"
-           "The members of the structs that a caller fills or gets, in C++, C and Python, and the options of the "
-           "command that set\nthem, with their defaults. This page is made of src/form/requests.hpp and "
-           "src/form/answers.hpp\n(`cmake --build build --target made`). [command-line.md](command-line.md) has the "
-           "options "
-           "that set several members\n(`--size`, `--tolerance`) or looks. Python has no `progress`, since Ctrl-C ends "
-           "a "
-           "call, and no `part`, since an\narray can be sliced.\n\n" +
+           "This page lists the members of the structs that a caller fills or gets, in C++, C and Python. It has the "
+           "options of the\n"
+           "command that set them, and their defaults. It is made of src/form/requests.hpp and src/form/answers.hpp\n"
+           "(`cmake --build build --target made`). [command-line.md](command-line.md) has the options that set several "
+           "members\n"
+           "(`--size`, `--tolerance`) or the appearance of regions. Python has no `progress`, since Ctrl-C ends a "
+           "call, and no\n"
+           "`part`, since an array can be sliced.\n\n" +
            list<Settings>("csgrt::Settings") + list<LoadOptions>("csgrt::LoadOptions") + list<View>("csgrt::View") +
            list<Camera>("csgrt::Camera") + list<Fields>("csgrt::Fields") + list<RayRange>("csgrt::RayRange") +
            list<Slice>("csgrt::Slice") + list<RegionInfo>("csgrt::RegionInfo") + list<SolidInfo>("csgrt::SolidInfo") +
