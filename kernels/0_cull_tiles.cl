@@ -1,6 +1,6 @@
 // Kernel 0: finds the tiles of a picture that can see anything. The other tiles get no rays. For each tile the kernel
 // also lists the nodes of the hierarchy that the tile's 64 rays may meet, so that each ray tests the listed nodes
-// alone. A GPU has no lists for every partition.
+// alone. If every partition is wanted, a GPU has no lists.
 #include "traversal/beam.h"
 #include "traversal/bvh_cursor.h"
 
@@ -11,9 +11,9 @@ static void clear_report(__global BatchReport* report, u32 tiles, u32 id) {
     if (id < tiles) ((__global unsigned char*)(report + 1))[id] = 0;
 }
 
-// Lists nodes that hold everything that the beam meets. The list begins with the root and goes down level by level: as
-// long as it has room, each node is replaced by those of its two children that the beam meets. `entry` is at first a
-// distance along the beam's middle ray, as in slab_ray.
+// Lists nodes that hold everything that the beam meets. The list begins with the root and goes down level by level.
+// Until it is full, each inner node is replaced by the children that the beam meets. `entry` is at first a distance
+// along the beam's middle ray, as in slab_ray.
 static u32 list_nodes(beam b, __global const BvhNode* nodes, TileNode* list) {
     u32 count, k, split = 1;
     list[0] = entry_of(b, nodes, 0);
@@ -65,8 +65,8 @@ static void store_sorted(beam b, TileNode* list, u32 count, int by_distance, __g
     stored[count].entry = BOX_MISSED;
 }
 
-// Counts the listed nodes and all nodes below them, up to what a byte holds. The time of a tile's rays is about
-// proportional to the count. 0: all nodes are before the starting node.
+// Counts the listed nodes and all nodes below them, up to 254. The time of a tile's rays is about proportional to the
+// count. 0: all nodes are before the starting node.
 static u32 count_nodes(__global const BvhNode* nodes, const TileNode* list, u32 count, u32 starting_node) {
     u32 i, sum = 0, starts = 0;
     for (i = 0; i < count; ++i) {

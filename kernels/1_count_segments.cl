@@ -68,9 +68,8 @@ __kernel void count_segments(__global const Frame* frame, GEOMETRY_ARGS, __globa
         intersect_candidate(frame, GEOMETRY, rays, listed, candidates + id, found + 2 * (size_t)id);
 }
 
-// Adds up each ray's counts, and gives each candidate its offset among the ray's segments. `deep_words`: the words of
-// bit arrays that a deep ray counts, though it needs none: DEEP_WORDS if the sum is to show that there is a deep ray,
-// else 0.
+// Adds up each ray's counts, and gives each candidate its offset among the ray's segments. `deep_words`: the count of
+// words for a deep ray, which needs none: DEEP_WORDS if the sum is to show that there is a deep ray, else 0.
 __kernel void sum_segments(__global const Frame* frame, __global const CandidateCount* places,
                            __global Candidate* candidates, u32 deep_words, __global RayCount* counts,
                            __global BatchReport* report) {

@@ -1,7 +1,7 @@
 // Kernel 1's first step on processors, for a picture's tiles and for lists: packets of eight rays list their
 // candidates. Solids that packets know are intersected here, too. count_segments (1_count_segments.cl) does the rest:
-// the candidates that only one ray alone can answer. A list's packet is eight rays in a row. Rays that go different
-// ways cost little more in a packet than alone.
+// the candidates that packets cannot intersect. A list's packet is eight consecutive rays. Rays of different directions
+// cost little more in a packet than alone.
 //
 //   count packet candidates -> (scan) -> list packet candidates -> count segments -> ...
 #include "shared/capacity.h"
@@ -28,13 +28,13 @@ static ray_packet packet_of(__global const Frame* f, __global const RayRecord* r
     return p;
 }
 
-// A packet on its way through the nodes of its tile's list, or through all nodes.
+// The walk of a packet through the nodes of its tile's list, or through all nodes.
 typedef struct {
     packet_slab_ray slabs;
     float8 range_end;
     __global const BvhNode* nodes;
     __global const TileNode* next;  // 0: there is no list
-    bvh_cursor cursor;              // in the subtree of the list's last node
+    bvh_cursor cursor;              // in the subtree of the node that was taken from the list last
     u32 active_mask;                // rays that pass near the scene
 } packet_walk;
 
@@ -51,7 +51,7 @@ static packet_walk start_walk(__global const Frame* f, __global const BvhNode* n
     return w;
 }
 
-// The next leaf that any ray hits, as BvhNode has it; 0: there is none. *hit_mask: the rays that hit the leaf.
+// The next leaf that any ray hits, as BvhNode.leaf; 0: there is none. *hit_mask: the rays that hit the leaf.
 static u32 next_packet_leaf(packet_walk* w, u32* hit_mask) {
     u32 leaf = 0;
     if (w->active_mask && !w->next) {
@@ -91,7 +91,7 @@ __kernel void count_packet_candidates(__global const Frame* frame, __global cons
     }
 }
 
-// Memory for a packet's candidates.
+// A packet's rays, and where their candidates are stored.
 typedef struct {
     packet_ray3 rays;
     double8 t_min;

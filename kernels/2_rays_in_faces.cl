@@ -1,12 +1,12 @@
 // Kernels 1 and 2 for candidates whose ray may run in a face of the solid: kernel 1 has marked them (IN_SOME_FACE).
-// Such rays are rare, and their work is large: within kernels 1 and 2 it would slow down all other rays of a GPU
-// (measured: docs/experiments.md). A program has these kernels if its scene has such solids (FLAT_FACED).
+// Such rays are rare but costly: within kernels 1 and 2 their work would slow down all other rays of a GPU (measured:
+// docs/experiments.md). A program has these kernels if its scene has such solids (FLAT_FACED).
 #include "traversal/camera.h"
 #include "shared/capacity.h"
 #include "shared/scene_args.h"
 #include "geometry/collect.h"
 
-// Runs after count_segments. The candidates' marks stay.
+// Counts the segments of marked candidates, after count_segments. The marks stay.
 __kernel void count_in_faces(__global const Frame* frame, GEOMETRY_ARGS, __global const RayRecord* rays,
                              __global const u32* listed, __global const CandidateCount* places,
                              __global Candidate* candidates) {
@@ -22,7 +22,7 @@ __kernel void count_in_faces(__global const Frame* frame, GEOMETRY_ARGS, __globa
     candidates[id].count = c.count | IN_SOME_FACE;
 }
 
-// Runs after store_segments.
+// Stores the segments of marked candidates, after store_segments.
 __kernel void store_in_faces(__global const Frame* frame, GEOMETRY_ARGS, __global const RayRecord* rays,
                              __global const u32* listed, __global const CandidateCount* places,
                              __global const Candidate* candidates, __global const RayCount* offsets,

@@ -1,11 +1,11 @@
-// Kernel 2: stores the two boundaries of each segment in the ray's part of `boundaries`. A work-item is a candidate, as
-// in kernel 1: it copies a candidate's only segment, which kernel 1 kept, and intersects the solid again if there are
-// several.
+// Kernel 2: stores the two boundaries of each segment in the ray's part of `boundaries`. There is a work-item for each
+// candidate, as in kernel 1. It copies the candidate's only segment, which kernel 1 kept, or intersects the solid again
+// if there are several segments.
 //
 //   boundaries of a ray:   in out | in out | in out ...      by ascending solid, then by distance
 //
-// The number of a boundary's ray stands in the boundary's word of `bits` until kernel 3 has read it. It cannot stand in
-// the boundary's node: the nodes may lie in the same memory as `found`.
+// The number of a boundary's ray is stored in the boundary's word of `bits` until kernel 3 has read it. It cannot be
+// stored in the boundary's node: the nodes may lie in the same memory as `found`.
 #include "traversal/camera.h"
 #include "shared/capacity.h"
 #include "shared/scene_args.h"
@@ -21,7 +21,7 @@ static void store(__global const Frame* frame, Geometry g, __global const RayRec
     if (c.count > 1 || (MANY_SEGMENTS >> g.solids[c.solid].type & 1u)) {
         ray3 r;
         ray_range wanted;
-        u32 near = 0;  // the ray's range does not begin within the solid
+        u32 near = 0;  // not read: kernel 1 has marked the candidates in faces
         if (!ray_of(frame, rays, number_of(frame, listed, c.ray), &r, &wanted)) return;
         collect_as_it_is(g, g.solids[c.solid], c.solid, r, wanted.t_min, boundaries + base, &near);
     } else

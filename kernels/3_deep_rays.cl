@@ -2,12 +2,12 @@
 //
 //   sort blocks -> merge, merge, ... -> sweep, sweep, ...
 //
-// The boundaries are sorted as order_boundaries sorts them: in blocks, which are merged two by two. The order stands in
-// the nodes: in `next`, or in `in_boundary` before the other merges. Then one work-item a ray passes the events from
-// front to back. Partitions and their nodes are the same as weave's. In place of the partitions' bits, the sweep keeps
-// a count of each solid's open segments and a status tree of the regions (boolean/status_tree.h). Both change by a few
-// words where a solid begins or ceases to cover. A launch passes a limited number of boundaries, so that it is short,
-// and the next launch goes on.
+// The boundaries are sorted as order_boundaries sorts them: in blocks, which are merged two by two. The order is stored
+// in the nodes: by turns in `in_boundary` and `next`, and in `next` at last. Then one work-item a ray passes the events
+// from front to back. Partitions and their nodes are the same as weave's. In place of the partitions' bits, the sweep
+// keeps a count of each solid's open segments and a status tree of the regions (boolean/status_tree.h). Count and tree
+// change by a few words where a solid begins or ceases to cover. A launch passes a limited number of boundaries, so
+// that it is short, and the next launch goes on.
 #include "traversal/camera.h"
 #include "boolean/status_tree.h"
 #include "geometry/beyond.h"
@@ -57,7 +57,7 @@ static int ends_before(__global const Boundary* boundaries, u32 a, u32 b) {
     return t_a < t_b || (t_a == t_b && a < b);
 }
 
-// Sorts one block a work-item.
+// Sorts blocks of boundaries, one block a work-item.
 __kernel void sort_deep_blocks(__global const DeepRay* deep, u32 count, u32 blocks, __global const RayCount* offsets,
                                __global const Boundary* all_boundaries, __global PartitionNode* all_nodes, u32 field) {
     const u32 id = (u32)get_global_id(0);
@@ -76,7 +76,7 @@ __kernel void sort_deep_blocks(__global const DeepRay* deep, u32 count, u32 bloc
 }
 
 // Merges runs of `run` boundaries, two by two. A work-item makes one block of the result, whose boundaries come from
-// both runs. How many come from the left run is found by bisection.
+// both runs. Bisection finds how many come from the left run.
 __kernel void merge_deep_runs(__global const DeepRay* deep, u32 count, u32 blocks, __global const RayCount* offsets,
                               __global const Boundary* all_boundaries, __global PartitionNode* all_nodes, u32 field,
                               u32 run) {
@@ -127,8 +127,8 @@ typedef struct {
     u32 cluster_words, regions;
 } status_tree;
 
-// Opens or closes a segment. Its solid begins or ceases to cover if no other segment of the solid is open. Returns
-// whether it does.
+// Opens or closes a segment. Its solid begins or ceases to cover if no other segment of the solid is open. Returns 1 if
+// the solid does.
 static u32 change_cover(status_tree tree, u32 solid, u32 opens, __global u32* covers, __global u32* status) {
     const u32 count = *covers, changes = count == !opens;
     *covers = opens ? count + 1 : count - 1;
@@ -142,7 +142,8 @@ static u32 change_cover(status_tree tree, u32 solid, u32 opens, __global u32* co
     return changes;
 }
 
-// Returns PartitionNode.owner for the open segments, as find_claim_beside does. `first`, `end`: the range of the sides.
+// Returns PartitionNode.owner for the open segments, by the rule of find_claim_beside. `first`, `end`: the range of the
+// sides.
 static u32 deep_owner(status_tree tree, __global const u32* ranks, __global const u32* status, u32 words, u32 first,
                       u32 end, u32 beyond) {
     u32 side, owner = NONE, is_overlap = 0;
@@ -178,7 +179,7 @@ static u32 start_deep_ray(__global const Boundary* boundaries, u32 count, u32 be
     return marked || beyond ? SIDES : 1u;
 }
 
-// Passes over the boundaries of the next event, from swept.at on. Their segments will change sides at once.
+// Passes over the boundaries of the next event, from swept.at on. Their segments will open or close together.
 static void find_event(DeepRay* swept, u32 boundary_count, real tolerance, __global Boundary* boundaries,
                        __global const PartitionNode* list, __global DeepSegment* of_segment) {
     u32 at = swept->at, e = list[at].next, i;
@@ -201,9 +202,9 @@ static void find_event(DeepRay* swept, u32 boundary_count, real tolerance, __glo
     swept->at = at;
 }
 
-// Sweeps one deep ray a work-item, from `first_ray` on. `limit`: how many boundaries a launch passes at most; each may
-// change all of the status tree above its leaves. `status`: made by clear_status, a tree for each side of the ray. When
-// a ray is done, its trees are clear again for the next ray.
+// Sweeps one deep ray a work-item, from `first_ray` on. `limit`: how many boundaries a launch passes at most; each
+// boundary may change all of the status tree above its solid's leaves. `all_status`: made by clear_status, a tree for
+// each side of a ray. When a ray is done, its trees are clear again for the next ray.
 __kernel void sweep_deep_rays(__global const Frame* frame, __global const RayRecord* rays, __global const u32* listed,
                               __global DeepRay* deep, u32 first_ray, u32 first_segment, u32 count,
                               __global const RayCount* offsets, __global Boundary* all_boundaries,

@@ -10,7 +10,7 @@
 // First each boundary counts how many come before it (by t, then by number): its position. Then one sweep, front to
 // back, makes events. An event is a boundary together with all boundaries that follow within Frame.tolerance (a length,
 // whatever the direction's length). So surfaces that coincide change together, whichever comes first, and a segment
-// that begins and ends in one event vanishes. The event's t is that of its first boundary. A partition's node has the
+// that begins and ends in one event vanishes. The event's t is the t of its first boundary. A partition's node has the
 // index of this boundary's position, so the list needs no memory but the 2 * segments nodes.
 #include "traversal/camera.h"
 #include "shared/capacity.h"
@@ -67,8 +67,8 @@ __kernel void weave(__global const Frame* frame, __global const RayRecord* rays,
     bits = all_bits + offset.words;
     words = words_of(segment_count);
     tolerance = tolerance_along(frame, r);
-    // The first boundary that is not taken yet, and the number of the next. The next is loaded one step ahead, so that
-    // the loop does not wait.
+    // e: the first boundary that is not passed yet. after_e: the boundary behind e, which is loaded one step ahead, so
+    // that the loop does not wait.
     e = list[0].next;
     after_e = list[1].next;
     t_e = boundaries[e].t;
@@ -82,7 +82,7 @@ __kernel void weave(__global const Frame* frame, __global const RayRecord* rays,
         const real t = t_e;
         __global u32* now = bits + event * words;
         u32 in_boundary = NONE, out_boundary = NONE, w, i, any = 0;
-        // All boundaries of this event change sides at once.
+        // All segments of this event's boundaries open or close at once.
         for (w = 0; w < words; ++w) now[w] = open_bits == NONE ? 0 : bits[open_bits * words + w];
         do {
             now[e >> 6] ^= 1u << (e >> 1 & 31u);
@@ -91,8 +91,9 @@ __kernel void weave(__global const Frame* frame, __global const RayRecord* rays,
             t_e = boundaries[e].t;
             if (at + 1 < 2 * segment_count) after_e = list[at + 1].next;
         } while (t_e == t || t_e - t <= tolerance);
-        // The surface at the event is that of the first boundary whose segment does not vanish: for the partition
-        // behind the event a boundary where a segment begins, for the partition before it one where a segment ends.
+        // The surface at the event is the surface of the first boundary whose segment does not vanish. For the
+        // partition behind the event a segment begins at this boundary; for the partition before the event a segment
+        // ends there.
         for (i = event; i < at; ++i) {
             const u32 ended = i == event ? first : list[i].next, segment = ended >> 1;
             const u32 after = has_bit(now, segment);

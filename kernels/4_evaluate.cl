@@ -1,7 +1,7 @@
-// Kernel 4: finds the region that claims each partition. A work-item is a node, so that no partition waits for the
-// partitions before it.
+// Kernel 4: finds the region that claims each partition. Each node has its own work-item, so that no partition waits
+// for the partitions before it.
 //
-// Of regions that overlap, the region of the smallest index has the partition. Regions are numbered as BRL-CAD ranks
+// Of regions that overlap, the region of the smallest index owns the partition. Regions are numbered as BRL-CAD ranks
 // them: solids come before FASTGEN's plates, plates before its volumes, and air comes last; regions of one rank come in
 // the model's order. A rule that looked at the partition before would depend on the ray's direction.
 #include "boolean/claim.h"

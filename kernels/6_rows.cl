@@ -1,5 +1,5 @@
-// Kernel 6: the answers to a list of rays, as arrays. A row is a partition that a region claims; the rows of a ray
-// stand together, in order of distance.
+// Kernel 6: writes the answers to a list of rays as arrays. A row is a partition that a region claims. The rows of a
+// ray are stored together, in order of distance.
 //
 //   count rows -> (scan) -> write rows -> describe rows
 //                                      -> count claimants -> (scan) -> list claimants
@@ -105,7 +105,7 @@ __kernel void describe_rows(__global const Frame* frame, GEOMETRY_ARGS, __global
     describe_boundary(frame, g, rays, boundaries, b.ray, b.out_boundary, 1, id, out_solids, out_normals);
 }
 
-// The partition of a record, whose ray is not deep: kernel 4 evaluated it.
+// The cover of an overlap's partition. Its ray is not deep: kernel 4 evaluated the partition.
 static cover cover_of(OverlapRecord overlap_record, __global const SolidRecord* solids, REGION_ARGS,
                       __global const RayCount* offsets, __global const Boundary* boundaries, __global const u32* bits) {
     const RayCount offset = offsets[overlap_record.ray];
@@ -121,7 +121,7 @@ static cover cover_of(OverlapRecord overlap_record, __global const SolidRecord* 
     return c;
 }
 
-// Counts, one record a work-item, how many claims list_claimants stores on the way.
+// Counts, one record a work-item, for how many claims list_claimants needs memory.
 __kernel void count_claimants(EVALUATION_ARGS, __global const RayCount* offsets, __global const Boundary* boundaries,
                               __global const u32* bits, __global const OverlapRecord* overlap_records,
                               u32 overlap_count, __global RayCount* places) {

@@ -1,11 +1,11 @@
-// Finds the first row of each ray of a list, on processors, without segments in memory: packets of eight rays go from
-// front to back, as the packets of a picture do (first_hits.cl). A list has no tiles, so each packet lists its nodes
-// itself.
+// Finds the first row of each ray of a list, on processors, without segments in global memory. Packets of eight rays
+// are traced from front to back, as the packets of a picture are (first_hits.cl). A list has no tiles, so each packet
+// lists its nodes itself.
 #include "shared/scene_args.h"
 #include "packet/listed.h"
 #include "packet/hits.h"
 
-// The test of which boxes the active rays meet within their ranges.
+// The data of the test that finds which boxes the active rays meet within their ranges.
 typedef struct {
     packet_slab_ray slabs;
     float8 range_end;
@@ -45,7 +45,7 @@ static void list_packet_nodes(packet_boxes b, __global const BvhNode* nodes, u32
             if (nodes[list[i].node].leaf) continue;
             first = packet_entry(b, nodes, list[i].node + 1);
             second = packet_entry(b, nodes, nodes[list[i].node + 1].skip);
-            list[i] = first.entry <= second.entry ? first : second;  // if both are missed, the entry goes
+            list[i] = first.entry <= second.entry ? first : second;  // if both are missed, the entry is removed below
             if (first.entry < BOX_MISSED && second.entry < BOX_MISSED)
                 list[count++] = first.entry <= second.entry ? second : first;
             split |= list[i].entry < BOX_MISSED;
@@ -87,8 +87,8 @@ static void start_listed(packet* p, __global const Frame* f, __global const RayR
     }
 }
 
-// Begins the row of a ray whose first claim is known, as cut_row does (boolean/rows.h). 0: the row begins behind the
-// range.
+// Finds where the row of a ray begins whose first claim is known, as cut_row does (boolean/rows.h); *is_cut: the range
+// cuts the row there. Returns 0 if the range holds nothing of the row.
 static int begin_of_row(const sweep* w, RayRecord record, real* t, u32* is_cut) {
     *is_cut = w->goes_on || w->seen.t < record.t_near;
     *t = *is_cut ? record.t_near : w->seen.t;

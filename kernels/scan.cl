@@ -9,8 +9,8 @@
 #define SCAN_EACH 16
 #define SCAN_BLOCK (SCAN_GROUP * SCAN_EACH)
 
-// The index of a block's entry in local memory. The gaps keep work-items that each go through SCAN_EACH entries off the
-// same bank.
+// The index of a block's entry in local memory. The gaps keep work-items, each of which goes through SCAN_EACH entries,
+// from using the same bank of memory.
 #define SCAN_PLACE(i) ((i) + (i) / SCAN_EACH)
 #define SCAN_PLACES SCAN_PLACE(SCAN_BLOCK)
 
@@ -51,7 +51,7 @@ static RayCount scan_block(__global RayCount* counts, u32 size, RayCount before,
     barrier(CLK_LOCAL_MEM_FENCE);
     for (i = item; i < SCAN_BLOCK && i < size; i += SCAN_GROUP) counts[i] = entries[SCAN_PLACE(i)];
     sum = plus(before, partial[SCAN_GROUP - 1]);
-    barrier(CLK_LOCAL_MEM_FENCE);  // the next block takes the same memory
+    barrier(CLK_LOCAL_MEM_FENCE);  // the next block uses the same memory
     return sum;
 }
 

@@ -33,7 +33,7 @@ static u32 are_in_parts(__local const u32* tiles, u32 most_in_parts) {
 
 // Stores in `numbers` the batch's tiles that see anything. `first`: the number of the batch's first tile. Tiles of one
 // class come in any order. The most expensive tiles come first, since otherwise the device waits for them at the end.
-// They are listed in parts if there are at most `most_in_parts` of them.
+// Tiles of the classes from PARTED_CLASS on are listed in parts if there are at most `most_in_parts` of them.
 __kernel void list_tiles(__global const unsigned char* costs, u32 first, u32 count, u32 most_in_parts,
                          __global BatchReport* report, __global u32* numbers) {
     __local u32 all[COST_CLASSES], tiles[COST_CLASSES], places[COST_CLASSES];

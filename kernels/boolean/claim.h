@@ -16,7 +16,7 @@ typedef struct {
     ENDS const Boundary* boundaries;
     ENDS const u32* bits;
     u32 segments;
-    u32 missed;  // missed_on() a side: segments that miss it do not cover
+    u32 missed;  // missed_on() of a side: segments that miss this side do not cover
     u32 marked;  // 0: no segment has MISSED_... set
     u32 beyond;  // MISSED_...: sides that a plane of the view cuts away
     GLOBAL const SolidRecord* solids;
@@ -101,8 +101,8 @@ FN u32 is_covered(cover c, const covered_solids* list, u32 solid) {
     (0xeu << 4 * OP_UNION | 0x8u << 4 * OP_INTERSECTION | 0x2u << 4 * OP_DIFFERENCE | 0x6u << 4 * OP_XOR | \
      0x4u << 4 * OP_REVERSE_DIFFERENCE)
 
-// The value of the term in the words from `node` to `end`, from the last word on: operands come before their operators,
-// and one bit of each is kept. No step waits for another's memory.
+// The value of the term in the words from `node` to `end`. The last word comes first, so operands come before their
+// operators, and each operand is one bit of `values`. No step waits for the memory of another step.
 FN u32 scan_term(cover c, const covered_solids* list, u32 node, u32 end) {
     u32 values = 0;
     while (end > node) {
@@ -117,15 +117,15 @@ FN u32 scan_term(cover c, const covered_solids* list, u32 node, u32 end) {
 }
 
 #ifdef CSGRT_LARGE_TERMS
-// The next few covered leaves of a large term, ascending. The cursor moves on as they are used up.
+// The next few covered leaves of a large term, ascending. When they are used up, the cursor finds the next few.
 #define CURSOR_LEAVES 8
 typedef struct {
     u32 nodes[CURSOR_LEAVES];
     u32 count, at;
-    u32 more;  // 1: there may be leaves after those kept
+    u32 more;  // 1: there may be leaves after the kept leaves
 } leaf_cursor;
 
-// Takes up a leaf that is not before the cursor; 0: the leaf and all greater leaves lie behind it.
+// Keeps a leaf if it is among the first CURSOR_LEAVES leaves so far; 0: neither this leaf nor a greater leaf is.
 FN u32 keep(leaf_cursor* w, u32 node) {
     u32 k = w->count;
     if (k == CURSOR_LEAVES) {
@@ -149,7 +149,7 @@ FN void fill_cursor(leaf_cursor* w, cover c, u32 from, u32 end) {
         while (bits) {
             const u32 segment = take_segment_of(word, &bits), solid = c.boundaries[2 * segment].solid;
             u32 low = c.solids[solid].first_leaf, high = low + c.solids[solid].leaf_count, last = high;
-            while (low < high) {  // finds the first at or after `from`
+            while (low < high) {  // finds the first leaf at or after `from`
                 u32 middle = (low + high) >> 1;
                 if (c.trees[middle] < from) {
                     low = middle + 1;
@@ -166,7 +166,8 @@ FN void fill_cursor(leaf_cursor* w, cover c, u32 from, u32 end) {
     }
 }
 
-// Moves to the first leaf at or after `from`, which never decreases. 0: there is none before `end`.
+// Moves to the first leaf at or after `from`, which never decreases from call to call. 0: there is no leaf before
+// `end`.
 FN u32 find_leaf(leaf_cursor* w, cover c, u32 from, u32 end) {
     while (w->at < w->count && w->nodes[w->at] < from) ++w->at;
     if (w->at == w->count && w->more) fill_cursor(w, c, from, end);
@@ -175,10 +176,10 @@ FN u32 find_leaf(leaf_cursor* w, cover c, u32 from, u32 end) {
 
 #define NEGATE_BIT 0x80000000u
 
-// The value of a large term, from covered leaf to covered leaf. A subtree without a covered leaf is false (there are no
-// complements), so it is never entered. A right subtree whose value cannot matter is skipped, too. There is no
-// recursion: a stack entry is an operator whose left operand is under evaluation; `negate` inverts the value that the
-// current subtree hands up. shared/layout.h says how the scene compiler keeps the stack short.
+// The value of a large term. The walk goes from covered leaf to covered leaf. A subtree without a covered leaf is false
+// (there are no complements), so it is never entered. A right subtree whose value cannot matter is skipped, too. There
+// is no recursion: a stack entry is an operator whose left operand is under evaluation. `negate` inverts the value of
+// the current subtree. shared/layout.h says how the scene compiler keeps the stack short.
 FN u32 walk_term(cover c, u32 node, u32 end) {
     u32 stack[TREE_STACK], ends[TREE_STACK];
     u32 depth = 0, negate = 0, value, term_end = end;
@@ -257,8 +258,8 @@ FN u32 ask_roles(GLOBAL const u32* roles, const covered_solids* list) {
         undecided |= role == ROLE_UNDECIDED;
     }
     if (blocked || (!undecided && wanted == NONE)) return 0;
-    return undecided || wanted != 1 ? ROLE_UNDECIDED : needed;  // a solid may be listed twice, so they cannot be
-                                                                // counted
+    return undecided || wanted != 1 ? ROLE_UNDECIDED
+                                    : needed;  // a solid may be listed twice, so needed solids cannot be counted
 }
 
 FN u32 term_holds(cover c, const covered_solids* list, StartRecord start) {
@@ -289,10 +290,10 @@ FN SolidFilter all_solids(void) {
     return f;
 }
 
-// Evaluates the terms that start at the segments of `starting`, which are some of c.bits. `ranks`: Frame.rank_ends, or
-// 0 if `other` is not wanted. `changed`: the solids that came or went at the last event. If no region claimed before,
-// only a term that has one of these solids can claim now. Several solids may start one term, as in a xor, and each
-// would find the same value: a term that was false just now is not evaluated again.
+// Evaluates the terms that start at the segments of `starting`, a subset of c.bits. `ranks`: Frame.rank_ends, or 0 if
+// `other` is not wanted. `changed`: the solids that began or ceased to cover at the last event. If no region claimed
+// before, only a term that has one of these solids can claim now. Several solids may start one term, as in a xor, and
+// each would find the same value: a term that was false just now is not evaluated again.
 FN claim find_claim(cover c, ENDS const u32* starting, const covered_solids* list, GLOBAL const u32* ranks,
                     SolidFilter changed) {
     claim found;
@@ -334,10 +335,11 @@ FN u32 is_one_solid(const covered_solids* list) {
 // c.bits cover; it is overwritten.
 //
 // Such a ray is moved to each of four sides, which are the same for all solids: above, below, left and right. On a side
-// it is within only one of the solids that meet in a face, so parts that touch do not overlap, and their intersection
-// is empty. The first region of any side has the partition, and an overlap is an overlap on this side. Around an edge
-// there are as many wedges as faces meet there, so solids that fill less than a quarter of the turn may be on none of
-// the sides. But a solid that is touched alone always has the ray.
+// the moved ray is within only one of the solids that meet in a face, so solids that touch do not overlap, and their
+// intersection is empty. The region of the least number on any side owns the partition, and an overlap is an overlap on
+// this side. Around an edge there are as many wedges as faces meet there, so solids that fill less than a quarter of
+// the turn may be on none of the sides. But if the ray touches one solid alone, it is not moved, and the solid covers
+// it.
 RARE_FN claim find_claim_of_sides(cover c, ENDS const u32* starting, covered_solids* list, GLOBAL const u32* ranks,
                                   SolidFilter changed) {
     const u32 moved = c.beyond || !is_one_solid(list) ? 1u : 0u;
@@ -356,7 +358,7 @@ RARE_FN claim find_claim_of_sides(cover c, ENDS const u32* starting, covered_sol
     return found;
 }
 
-// The claim of a partition, by c.bits, whose solids are listed.
+// The claim of the partition that the segments of c.bits cover. `list`: the solids of these segments.
 FN claim find_claim_beside(cover c, ENDS const u32* starting, covered_solids* list, GLOBAL const u32* ranks,
                            SolidFilter changed) {
     c.missed = 0;

@@ -4,8 +4,8 @@
 
 #include "claim.h"
 
-// Lists the regions whose terms hold on one side of a contact, a region as often as one of its starts is found. Returns
-// how many; stores them from `found` on unless it is 0.
+// Lists the regions whose terms hold on one side of a contact. A region may be listed several times. Returns the length
+// of the list; stores the list from `found` on unless `found` is 0.
 FN u32 list_claims(cover c, GLOBAL u32* found) {
     covered_solids covered;
     u32 word, words = words_of(c.segments), count = 0, known = NONE;  // known: the term that was evaluated last
@@ -42,7 +42,7 @@ FN side_range sides_to_ask(cover c) {
     return sides;
 }
 
-// The most numbers that all_claimants() stores on the way.
+// The most numbers that all_claimants() stores before it removes duplicates.
 FN u32 claims_at_most(cover c) {
     const side_range sides = sides_to_ask(c);
     u32 side, count = 0;
@@ -53,7 +53,7 @@ FN u32 claims_at_most(cover c) {
     return count;
 }
 
-// Sorts (by a heap: there may be thousands) and removes duplicates. Returns how many are left.
+// Sorts numbers (by a heap: there may be thousands) and removes duplicates. Returns how many numbers are left.
 FN u32 sort_numbers(GLOBAL u32* numbers, u32 count) {
     u32 heap = count / 2, end = count, kept = 0, i;
     while (end > 1) {
@@ -78,8 +78,8 @@ FN u32 sort_numbers(GLOBAL u32* numbers, u32 count) {
     return kept;
 }
 
-// Lists the claimants of the first claimant's rank, ascending, on the side that find_claim_beside() takes. Returns how
-// many; `found` has room for claims_at_most().
+// Lists the claimants of the first claimant's rank, ascending, on the side that find_claim_beside() takes. Returns
+// their number; `found` has memory for claims_at_most() numbers.
 FN u32 all_claimants(cover c, GLOBAL const u32* ranks, GLOBAL u32* found) {
     const side_range sides = sides_to_ask(c);
     u32 side, kept = 0, i;

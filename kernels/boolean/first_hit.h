@@ -1,10 +1,10 @@
 // First hit: finds the first claimed partition of a ray, and no other, from front to back, in private memory.
 //
-// The list of the ray's tile has the nearest nodes first (kernel 0). Solids that are not intersected yet lie behind the
-// next node, so every event before the node's distance is complete: no segment can join it. Complete events are passed,
-// and their partitions evaluated, as kernels 3 and 4 do it; the first claim ends the search. Segments that have ended
-// make room for others. A ray that has more than SWEEP_SEGMENTS at a time overflows, and the host has kernels 1 to 5
-// trace it.
+// The list of the ray's tile has the nearest nodes first (kernel 0). Solids that are not intersected yet begin at the
+// next node's distance or behind it. So every event before this distance is complete: no segment can join the event.
+// Complete events are passed, and their partitions evaluated, as in kernels 3 and 4. The first claim ends the search.
+// Segments that have ended make room for others. A ray that has more than SWEEP_SEGMENTS at a time overflows, and the
+// host has kernels 1 to 5 trace it.
 //
 //   nodes      |--seen--|   |--seen--|      |--unseen--|
 //   boundaries  i     o  i    i   o         :       o  o
@@ -28,10 +28,10 @@ typedef struct {
     u32 open[SLOT_WORDS];                     // bit s: it covers the partition that the sweep is in
     u32 starts[SLOT_WORDS];                   // bit s: its solid starts some term
     u32 entry[SLOT_WORDS];                    // bit s: some term may begin to be true where segment s begins
-    u32 exit[SLOT_WORDS];                     // bit s: or where segment s ends
+    u32 exit[SLOT_WORDS];                     // bit s: some term may begin to be true where segment s ends
     real next_event;                          // the distance of the next boundary; infinity: there is none
     Boundary seen;                            // the boundary where the current partition begins, if it is claimed
-    u32 region;                               // the region that claims it; NONE: none does
+    u32 region;                               // the region that claims the current partition, or NONE
     u32 from_within;                          // the partition begins where a solid ends
     u32 goes_on;                              // the same region claims the partition before
     u32 marked;                               // has any segment so far MISSED_... set?
@@ -73,7 +73,7 @@ FN u32 take_slot(sweep* w, SolidRecord solid) {
     return slot;
 }
 
-// Adds a segment. 0: there is no room.
+// Adds a segment. Returns 0 if no slot is free.
 FN int take_segment(sweep* w, SolidRecord solid, Boundary in, Boundary out) {
     const u32 slot = take_slot(w, solid);
     if (slot != NONE) {
@@ -85,7 +85,7 @@ FN int take_segment(sweep* w, SolidRecord solid, Boundary in, Boundary out) {
     return slot != NONE;
 }
 
-// Adds the solid's segments. 0: there is no room.
+// Adds the solid's segments. Returns 0 if there are not enough free slots.
 FN int take_solid(sweep* w, Geometry g, u32 index, ray3 r, real t_min) {
     SolidRecord solid = g.solids[index];
     u32 count, i;
@@ -148,11 +148,11 @@ FN int comes_before(Boundary a, Boundary b) { return a.t < b.t || (a.t == b.t &&
 // An event: the first boundary where a segment begins to cover, and the first where a segment ceases to.
 typedef struct {
     Boundary in, out;     // solid NONE: there is none
-    SolidFilter changed;  // the solids that come or go
+    SolidFilter changed;  // the solids that begin or cease to cover
     u32 begins;           // not 0: a term may begin to be true
 } event;
 
-// Passes the next event: the boundaries at w->next_event, and those within the tolerance behind it.
+// Passes the next event: the boundaries at w->next_event, and the boundaries within the tolerance behind it.
 FN event pass_event(sweep* w, real tolerance) {
     const real t = w->next_event;
     u32 word;
@@ -193,7 +193,7 @@ FN int is_complete(const sweep* w, real tolerance, real horizon) {
     return w->next_event < REAL_INFINITY && horizon - w->next_event > tolerance;
 }
 
-// Passes all events that are complete. 1: the first partition to be seen is known.
+// Passes all events that are complete. Returns 1 if the first visible partition is known.
 FN int advance(sweep* w, scene_tables s, real tolerance, real after, real horizon) {
     int found = 0, going = is_complete(w, tolerance, horizon);
     while (going) {
@@ -228,8 +228,9 @@ FN float event_distance(const sweep* w, real tolerance, wide offset) {
     return w->next_event < REAL_INFINITY ? (float)((wide)(w->next_event + tolerance) - offset) : BOX_MISSED;
 }
 
-// Returns the first region that is seen, in the sweep's state. `next`: the nodes of the ray's tile. Segments that end
-// before `from` are not wanted; partitions that end at `after` or before are not seen. `beyond`: see cover.
+// Finds the first region that is seen, and leaves it in the sweep's state. Returns RAY_HITS, RAY_MISSES or
+// RAY_OVERFLOWS. `next`: the nodes of the ray's tile. Segments that end before `from` are not wanted; partitions that
+// end at `after` or before are not seen. `beyond`: see cover.
 FN u32 first_hit(GLOBAL const Frame* f, scene_tables s, GLOBAL const TileNode* next, ray3 r, real from, real after,
                  u32 beyond, sweep* w) {
     const real tolerance = tolerance_along(f, r);
@@ -239,8 +240,8 @@ FN u32 first_hit(GLOBAL const Frame* f, scene_tables s, GLOBAL const TileNode* n
     u32 solid = 0, end = f->unbounded_count, leaf, result = RAY_GOES_ON;
     start_sweep(w);
     w->beyond = beyond;
-    // All rays of a tile come to its next node together, so that the work-items of a warp test the same solids. Loops
-    // have one way out, here and in the functions that they call: work-items that leave a loop in several ways stay
+    // All rays of a tile come to its next node together, so that the work-items of a warp test the same solids. Each
+    // loop has one exit, here and in the functions that are called: work-items that leave a loop by several exits stay
     // divergent.
     do {
         TileNode e;

@@ -1,5 +1,5 @@
 // Rows: the partitions of a ray that the answer to a list holds. A region claims each row; neighbours of one region are
-// joined, and rows are cut at the ray's range. Kernel 6 and the reference go over them with the same functions.
+// joined, and rows are cut at the ray's range. Kernel 6 and the reference use the same functions for rows.
 #ifndef CSGRT_BOOLEAN_ROWS_H
 #define CSGRT_BOOLEAN_ROWS_H
 
@@ -17,10 +17,10 @@ typedef struct {
 #endif
 } ray_rows;
 
-// A row: the part of a ray that one region holds.
+// A row: the part of a ray that one region claims.
 typedef struct {
     wide in, out;
-    u32 in_boundary, out_boundary;  // of the ray; NONE: the range cuts it there
+    u32 in_boundary, out_boundary;  // of the ray; NONE: the range cuts the row there
     u32 region;
 } ray_row;
 
@@ -50,8 +50,8 @@ FN wide row_distance(ray_rows w, real t) {
 #endif
 }
 
-// Cuts a row at the ray's range. 0: the range holds nothing of the row. A range of one point holds the row that begins
-// there, not the row that ends there.
+// Cuts a row at the ray's range. 0: the range holds nothing of the row. A range of one point is in the row that begins
+// there, not in the row that ends there.
 FN int cut_row(ray_rows w, ray_row* row) {
     const wide in = row->in, out = row->out;
     if (in < w.near) {
@@ -109,8 +109,8 @@ FN int next_overlap(ray_rows* w, ray_row* row, u32* node) {
     return 0;
 }
 
-// The normal at one boundary of a row, outward from its region. The solid's own normal is turned around where a removed
-// solid ends, and where a solid begins that takes what follows.
+// The normal at one boundary of a row, outward from its region. The solid's own normal is reversed where the row begins
+// at the exit from a solid, and where it ends at the entry into a solid.
 FN vec3 row_normal(Geometry g, ray3 r, Boundary end, u32 number, u32 is_out) {
     const vec3 n = normal_at(g, g.solids[end.solid], r, end.t, end.surface);
     return (number & 1u) == is_out ? n : make_vec3(-n.x, -n.y, -n.z);

@@ -2,11 +2,11 @@
 //
 // A region's tree may be as deep as it is large, so a change of one leaf must not climb all of it. As in top trees
 // (Alstrup et al. 2005), the tree is cut into paths that go down to the larger operand. An operator on a path, together
-// with its other operand, makes a value of the value of the path below. This is one of four functions of a bit, stored
-// in two bits. The composition of such functions is again one of the four, so a path is a balanced tree of
+// with its other operand, turns the value of the path below into its own value. This is one of the four functions of a
+// bit, stored in two bits. The composition of such functions is again one of the four, so a path is a balanced tree of
 // compositions, whose root gives the path's value. This value sets the function of the operator that the path hangs on.
-// The trees are balanced by weight, so the way from any leaf to the region is a few times log2 of the leaves
-// (src/compile/regions/status_tree.hpp).
+// The trees are balanced by weight, so the number of steps from a leaf to the region is a few times log2 of the number
+// of leaves (src/compile/regions/status_tree.hpp).
 //
 //   A - (B - (C + D))      path  -, -, +, D      functions  A - x,  B - x,  C + x,  D
 //
@@ -29,7 +29,7 @@ FN u32 composed(u32 upper, u32 lower) { return (upper >> (lower & 1u) & 1u) | (u
 // The function of an operator whose other operand is a path. `f`: the whole path's function, which is constant.
 FN u32 raked(u32 rake, u32 f) { return rake == RAKE_NONE ? f : RAKE_TABLE >> (4 * rake + 2 * (f & 1u)) & 3u; }
 
-// The function of a cluster in `status`, which has 16 a word.
+// The function of a cluster. `status` has 16 functions a word.
 FN u32 function_of(GLOBAL const u32* status, u32 cluster) { return status[cluster >> 4] >> 2 * (cluster & 15u) & 3u; }
 
 // Changes the function of a leaf's cluster by the bits that are set in `change`, and the functions of all clusters
@@ -51,9 +51,8 @@ FN u32 change_leaf(GLOBAL u32* status, GLOBAL const u32* links, u32 cluster, u32
     return region;
 }
 
-// ---- A set of regions, from which the least is taken ----
-// A region has a bit. If the set is larger than a word, a second level has a bit for each word that is not 0; and so
-// on, up to one word.
+// ---- A set of regions, from which the least is taken ---- A region has a bit. If the set is larger than a word, a
+// second level has a bit for each word that is not 0. Levels follow until a level is one word.
 FN u32 words_of_set(u32 regions) {
     u32 words = 0;
     do {

@@ -2,14 +2,15 @@
 // (9 reals), local = L (p - center).
 //
 // The ray's origin is first moved to its closest approach to the center (in the solid's own metric), because
-// coefficients formed from a far origin lose their digits. The moved origin w = (o - center) + shift * d is computed
-// with the rounding errors of its two large terms kept. So it is good to a few ulps of |w|, however far the ray starts.
+// coefficients formed from a far origin lose their digits. The moved origin w = (o - center) + shift * d keeps the
+// rounding errors of its two large terms. So w is accurate to a few ulps of |w|, however far away the ray starts.
 #ifndef CSGRT_GEOMETRY_AFFINE_H
 #define CSGRT_GEOMETRY_AFFINE_H
 
 #include "segments.h"
 
-// A ray in a solid's local space. Its parameter u is the world's t less `shift`, so numbers near the solid stay small.
+// A ray in a solid's local space. The local parameter u is the world's t minus `shift`, so numbers near the solid stay
+// small.
 typedef struct {
     vec3 o, d;   // local; o is the closest approach: o . d is about 0
     real shift;  // t = shift + u, u along (o, d)
@@ -47,7 +48,7 @@ INLINE_FN local_ray to_local(GLOBAL const parameter* p, ray3 r) {
     return l;
 }
 
-// The local ray with the origin where it is. Beside to_local() it shows what the shift is good for.
+// The local ray with its own origin. A comparison with to_local() shows what the shift gains.
 FN local_ray to_local_unmoved(GLOBAL const parameter* p, ray3 r) {
     local_ray l;
     l.o = affine_linear(p, leading(offset_from(affine_center(p, r), r.o)));
@@ -64,7 +65,7 @@ FN local_ray quartic_ray(u32 method, GLOBAL const parameter* p, ray3 r) {
 // The parameter of the closest approach along the unit direction d: 0 if the origin was moved there.
 FN real quartic_middle(u32 method, vec3 o, vec3 d) { return method == QUARTIC_UNSHIFTED ? -dot3(o, d) : REAL(0); }
 
-// The depth, in parts of the solid's size, below which a ray may only touch the solid and is tested more exactly.
+// The depth, relative to the solid's size, below which a ray may only touch the solid and is tested more exactly.
 #define TOUCHED REAL(0x1p-12)
 
 FN vec3 local_point(local_ray l, real t) { return add_scaled(l.o, t - l.shift, l.d); }

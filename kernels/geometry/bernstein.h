@@ -1,20 +1,19 @@
-// Bernstein: where a polynomial in Bernstein form changes its sign in [0, 1]. Curves against a ray make such
-// polynomials.
+// Bernstein: where a polynomial in Bernstein form changes its sign in [0, 1]. The test of a curve against a ray makes
+// such polynomials.
 //
-// A polynomial has at most as many sign changes as its coefficients do (Descartes' rule in Bernstein form; Lane and
-// Riesenfeld 1981), and as many up to an even number. Intervals with more than one are halved, from left to right. Only
-// the position in the binary tree is remembered, so the walk needs no stack:
+// A polynomial has as many sign changes as its coefficients, or fewer by an even number (Descartes' rule in Bernstein
+// form; Lane and Riesenfeld 1981). Intervals with more than one sign change are halved, from left to right. Only the
+// position in the binary tree is remembered, so the walk needs no stack:
 //
 //     0 ------------------------------------ 1     coefficients + - - +    two: halve
 //     0 ------- 1/2                                            + - -       one: found
 //               1/2 ------------------------ 1                 - - +       one: found
 //
-// Positive counts as positive, zero and negative as negative, everywhere. The values at 0 and 1 are the first and last
-// coefficients to the bit, and a value in between is computed once. So the number of changes is even exactly if the
-// values at 0 and 1 have one sign, whatever rounding does inside. Two changes closer than 2^-SIGN_DEPTH may both be
-// missed: the value between them is within rounding of zero. A turned outline that ends on the axis is the exception:
-// there the value fades with the radius and keeps its digits. So next to 0 and 1 intervals are halved down to
-// 2^-TIP_DEPTH.
+// Zero counts as negative everywhere. The values at 0 and 1 are the first and last coefficients to the bit, and a value
+// in between is computed once. So the number of changes is even exactly if the values at 0 and 1 have one sign,
+// whatever rounding does inside. Two changes closer than 2^-SIGN_DEPTH may both be missed: the value between them is
+// within rounding of zero. The exception is a turned outline that ends on the axis: there the value shrinks with the
+// radius and keeps its digits. So next to 0 and 1 intervals are halved down to 2^-TIP_DEPTH.
 #ifndef CSGRT_GEOMETRY_BERNSTEIN_H
 #define CSGRT_GEOMETRY_BERNSTEIN_H
 
@@ -23,13 +22,13 @@
 #define BERNSTEIN_SIZE 25  // coefficients at most: degree 24
 #define SIGN_DEPTH (sizeof(real) == 4 ? 22u : 28u)
 #define TIP_DEPTH (sizeof(real) == 4 ? 22u : 52u)
-#define TIP_PIECES REAL(0x1p20)  // intervals at any depth that are as near to 0 or 1 count as next to it
+#define TIP_PIECES REAL(0x1p20)  // an interval is next to 0 or 1 if it is nearer than so many of its own sizes
 
 // (1 - t) a + t b, exact at 0 and 1.
 FN real blend(real t, real a, real b) { return real_fma(t, b, (REAL(1) - t) * a); }
 
-// The coefficients for [low, high] from those for [0, 1], by de Casteljau's algorithm. The last coefficient is the
-// value at `high`, the same for every `low`.
+// The coefficients for [low, high] from the coefficients for [0, 1], by de Casteljau's algorithm. The last coefficient
+// is the value at `high`, the same for every `low`.
 FN void restrict_to(const real* c, u32 degree, real low, real high, real* q) {
     u32 i, round;
     for (i = 0; i <= degree; ++i) q[i] = c[i];
@@ -53,7 +52,7 @@ FN u32 coefficient_changes(const real* c, u32 degree) {
 typedef struct {
     u32 depth;
     real index, size;  // the next interval: [index, index + 1] size; a whole number, and 2^-depth
-    int positive;      // the sign at its low end
+    int positive;      // the sign at the interval's low limit
     real low, high;    // the last interval that holds a change
 } sign_walk;
 
@@ -67,8 +66,8 @@ FN sign_walk start_sign_walk(const real* c) {
     return w;
 }
 
-// Goes on to the next change, which w->low and w->high then enclose; w->positive is the sign after it. 0: there is
-// none.
+// Moves to the next change, which w->low and w->high then enclose; w->positive is the sign after the change. 0: there
+// is no change left.
 FN int next_sign_change(const real* c, u32 degree, sign_walk* w) {
     real q[BERNSTEIN_SIZE];
     while (w->index * w->size < 1) {
@@ -105,7 +104,7 @@ FN int next_sign_change(const real* c, u32 degree, sign_walk* w) {
 // bisection.
 typedef struct {
     real low, high, at, step;
-    int positive;  // the sign at `low`; the sign at `high` is the other
+    int positive;  // the sign at `low`; at `high` the sign is opposite
     int done;
 } bracket;
 

@@ -1,6 +1,7 @@
-// Beside: a ray that runs in flat faces of a solid whose crossings are found one by one (meshes, extrusions, ...), on
-// whichever side of each face rounding has put the ray. The solid is intersected with the ray moved a step aside of all
-// these faces: above them (touch.h), then below. A segment found on one side alone is marked with the other.
+// Beside: a ray that runs in flat faces of a solid whose crossings are found one by one (meshes, extrusions, ...).
+// Rounding decides on which side of each face the ray is. So the solid is intersected with the ray moved a step aside
+// of all these faces: above them (touch.h), then below. A segment that is found on one side alone is marked with the
+// other sides.
 //
 //                  above                   Seen along the ray, which is the point 0: the faces are lines through 0.
 //         high \     ^     / low           Their normals are turned to point above, and the two outermost of them are
@@ -10,8 +11,8 @@
 //                 /     \                  ray's left and right alone: steps 3 and 4.
 //                /   2   \                 (drawn: the steps and the two outermost faces)
 //
-// The result has four sides: above, below, left and right. Each step stands for the sides between the same faces; left
-// and right may lie above all faces, or below.
+// The result has four sides: above, below, left and right. A step gives the result for each side that lies between the
+// same faces; left and right may lie above all faces, or below.
 //
 // A normal n is known by n . above and n . left (touch.h): n . d is 0.
 #ifndef CSGRT_GEOMETRY_BESIDE_H
@@ -20,18 +21,18 @@
 #include "quadratic.h"
 #include "touch.h"
 
-// Distances in units of the rounding of single numbers: how far a corner of a face may be off the ray, and how far the
-// ray steps aside.
+// Distances in units of the rounding of single numbers: how far a corner may be from the ray for the ray to be in the
+// face, and how far the ray is moved aside.
 #define IN_FACE REAL(1)
 #define ASIDE REAL(8)
 #define STEEPEST REAL(0x1p60)
-#define SAME_FACE REAL(0x1p-20)  // the angle between two normals below which the faces are one
+#define SAME_FACE REAL(0x1p-20)  // two faces are one if the angle between their normals is smaller
 
-// The outermost faces in which a ray runs, and the step aside that is taken.
+// The outermost faces in which a ray runs, and the current step aside.
 typedef struct {
-    u32 step;        // 0: the ray is where it is; else 1 to 4
+    u32 step;        // 0: the ray is not moved; else 1 to 4
     u32 found;       // the ray runs in some face
-    real low, high;  // n . left / n . above of the outermost
+    real low, high;  // n . left / n . above of the two outermost faces
 } beside;
 
 FN beside not_beside(void) {
@@ -60,7 +61,7 @@ RARE_FN beside add_local_face(beside b, vec3 n, GLOBAL const real* p, ray3 r) {
     return add_face(b, dot3(n, affine_linear(p, above_faces())), dot3(n, affine_linear(p, left_of_ray(r))));
 }
 
-// The normal of a face in the solid's own space, from the two products.
+// The normal of a face in the solid's own space, from its products with `above` and `left`.
 RARE_FN vec3 local_normal(GLOBAL const real* p, ray3 r, real n_above, real n_left) {
     const vec3 d = affine_linear(p, r.d), above = affine_linear(p, above_faces()),
                left = affine_linear(p, left_of_ray(r));
@@ -90,7 +91,7 @@ FN local_ray moved_aside(local_ray l, beside b, GLOBAL const real* p, ray3 r) {
     return l;
 }
 
-// The sides for which the step stands; 0: none.
+// The sides to which the current step belongs; 0: none.
 FN u32 sides_of_step(beside b) {
     const u32 left_is_above = b.low >= 0, left_is_below = b.high < 0, is_between = !left_is_above && !left_is_below;
     if (b.step == 1) return MISSED_ABOVE | (left_is_above ? MISSED_LEFT : left_is_below ? MISSED_RIGHT : 0u);
@@ -101,7 +102,7 @@ FN u32 sides_of_step(beside b) {
 // The marks of the segments' boundaries: all other sides.
 FN u32 missed_beside(beside b) { return b.step == 0 ? 0 : MISSED & ~sides_of_step(b); }
 
-// Takes the next step. 0: there is none.
+// Moves to the next step. Returns 0 if no step is left.
 FN u32 next_step(beside* b) {
     const u32 last = b->high - b->low > SAME_FACE * (REAL(1) + real_abs(b->high * b->low)) ? 4u : 2u;
     ++b->step;
@@ -109,7 +110,7 @@ FN u32 next_step(beside* b) {
 }
 
 // Corners seen along the ray, which is the point 0 (triangle.h). Do they lie in one line through the ray, with the ray
-// among them, as far as rounding lets csgrt tell? `direction`: the line's.
+// among them, as far as rounding lets csgrt tell? `direction`: the direction of the line.
 RARE_FN int in_line(vec3 a, vec3 b, vec3 c, vec3 d, real rounding, vec3* direction) {
     const real low_x = real_min(real_min(a.x, b.x), real_min(c.x, d.x));
     const real high_x = real_max(real_max(a.x, b.x), real_max(c.x, d.x));

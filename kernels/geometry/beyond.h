@@ -1,5 +1,5 @@
-// Beyond: the sides of a ray that the view's planes cut away. A ray that runs in such a plane has the sides that the
-// plane keeps.
+// Beyond: the sides of a ray that the view's planes cut away. A ray that runs in such a plane keeps only the sides that
+// the plane does not cut away.
 #ifndef CSGRT_GEOMETRY_BEYOND_H
 #define CSGRT_GEOMETRY_BEYOND_H
 

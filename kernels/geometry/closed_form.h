@@ -1,5 +1,5 @@
-// Closed form: the solids that packets of rays know, too. The file is compiled for one ray and for a packet
-// (packet/begin.h).
+// Closed form: the solids that are intersected for packets of rays, too. The file is compiled for one ray and for a
+// packet (packet/begin.h).
 #ifndef CSGRT_GEOMETRY_CLOSED_FORM_H
 #define CSGRT_GEOMETRY_CLOSED_FORM_H
 

@@ -1,4 +1,4 @@
-// Collect: any solid's segments along a ray, as boundaries. The walk, the reference and the tests all call this.
+// Collect: finds any solid's segments along a ray, as boundaries. The kernels, the reference and the tests use it.
 #ifndef CSGRT_GEOMETRY_COLLECT_H
 #define CSGRT_GEOMETRY_COLLECT_H
 
@@ -10,7 +10,7 @@
 #include "solid.h"
 #include "touch.h"
 
-// A function that a WHOLE_FN calls all the same: much code, and so much work that the call is little of it.
+// A function that is not inlined into a WHOLE_FN: its work takes much longer than its call.
 #ifndef PART_FN
 #define PART_FN FN
 #endif
@@ -27,8 +27,8 @@ FN void put_segment(ENDS Boundary* boundaries, u32 solid, real in, u32 in_surfac
 }
 
 #if (CSGRT_SOLIDS) & FLAT_FACED
-// The segments of such a solid for the ray as it is, or aside of faces in which it runs. *near: the ray may run in
-// some.
+// The segments of a FLAT_FACED solid for the ray as it is, or moved aside of faces by `b`. *near: the ray may run in a
+// face.
 FN u32 collect_once(Geometry g, SolidRecord solid, ray3 r, crossings c, beside b, u32* near) {
 #if HAS_SOLID(SOLID_EXTRUDE)
     if (solid.type == SOLID_EXTRUDE) return close_crossings(extrude_cross(g, solid, r, c, b, near));
@@ -62,9 +62,9 @@ FN beside find_faces(Geometry g, SolidRecord solid, ray3 r) {
     return not_beside();
 }
 
-// The segments of every step aside, if the ray runs in a face of the solid. They may overlap. `stored`: how many
-// segments the ray as it is has; the new ones take their memory. `r` is the world's ray. The function is not inlined:
-// inlined rare code costs every ray.
+// The segments of every step aside, if the ray runs in a face of the solid. These segments may overlap. `stored`: the
+// number of segments of the unmoved ray, whose memory the new segments take. `r` is the world's ray. The function is
+// not inlined, because inlined rare code slows down every ray.
 NOINLINE_FN u32 collect_beside(Geometry g, SolidRecord solid, u32 index, ray3 r, real t_min, ENDS Boundary* boundaries,
                                u32 stored) {
     beside b;
@@ -85,7 +85,8 @@ NOINLINE_FN u32 collect_beside(Geometry g, SolidRecord solid, u32 index, ray3 r,
         }
         count += found;
     }
-    // Room for the segments of the ray as it is was counted before it was known that the ray runs in a face.
+    // The unmoved ray's segments were counted before it was known that the ray runs in a face, so the result has at
+    // least as many.
     for (; count < stored; ++count)
         if (boundaries) {
             boundaries[2 * (size_t)count].surface |= MISSED;
@@ -95,8 +96,8 @@ NOINLINE_FN u32 collect_beside(Geometry g, SolidRecord solid, u32 index, ray3 r,
 }
 #endif
 
-// Collects from solids of types that may have more than two segments. Returns 0 if the type is another; else *count is
-// set. See collect_as_it_is(). `r` is the solid's own ray (ray_at).
+// Collects from solids of types that may have more than two segments. Returns 0 for other types; else sets *count. See
+// collect_as_it_is(). `r` is the solid's own ray (ray_at).
 PART_FN u32 collect_many(Geometry g, SolidRecord solid, u32 index, ray3 r, real t_min, ENDS Boundary* boundaries,
                          u32* count, u32* near) {
 #if (CSGRT_SOLIDS) & FLAT_FACED
@@ -126,7 +127,7 @@ PART_FN u32 collect_many(Geometry g, SolidRecord solid, u32 index, ray3 r, real 
     return 0;
 }
 
-// The segments of a solid of another type that end at t_min or later.
+// The segments, of a solid of any other type, that end at t_min or later.
 FN segments collect_few(Geometry g, SolidRecord solid, ray3 r, real t_min) {
     segments h = intersect(g, solid, r);
     if (h.touched) h = mark_touched(g, solid, r, h);
@@ -156,7 +157,7 @@ WHOLE_FN u32 collect_as_it_is(Geometry g, SolidRecord solid, u32 index, ray3 r, 
 }
 
 // Returns how many segments of the solid end at t_min or later. Their boundaries are stored from `boundaries` on,
-// unless it is 0: two a segment, in then out, by ascending distance. `index` is the solid's own.
+// unless `boundaries` is 0: two a segment, in then out, by ascending distance. `index`: the solid's number.
 WHOLE_FN u32 collect(Geometry g, SolidRecord solid, u32 index, ray3 r, real t_min, ENDS Boundary* boundaries) {
     u32 near = 0;
     const u32 count = collect_as_it_is(g, solid, index, r, t_min, boundaries, &near);

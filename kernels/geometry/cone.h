@@ -1,5 +1,5 @@
-// Cone: a ray against a cylinder or cone, whatever the shape of its side: the two end caps, the side of a round cone,
-// and the interval where the ray may meet the side of another. Parameters, planes and surfaces are the tgc's (tgc.h).
+// Cone: parts of the test of a ray against a cylinder or cone: the two end caps, the side of a round cone, and the
+// interval where the ray may meet a side that is not round. Parameters, planes and surfaces are the tgc's (tgc.h).
 #ifndef CSGRT_GEOMETRY_CONE_H
 #define CSGRT_GEOMETRY_CONE_H
 
@@ -25,7 +25,7 @@ typedef struct {
 // The quadratic x^2 + y^2 - m^2 with m = m0 + m1 u, the radius along the ray. Its discriminant b^2 - a c equals |m0 d -
 // m1 o|^2 - (o x d)^2 (all in x, y), which does not cancel where b^2 and a c do.
 //
-// A cone with a true apex has it as its local origin (m0 = m1 z / d.z exactly), so that rays past the apex keep their
+// A cone with an apex has its local origin there (m0 = m1 z / d.z exactly), so that rays past the apex keep their
 // digits.
 FN quadratic round_side(local_ray l, real m0, real m1) {
     const real wx = difference_of_products(m0, l.d.x, m1, l.o.x), wy = difference_of_products(m0, l.d.y, m1, l.o.y);
@@ -40,7 +40,7 @@ FN quadratic round_side(local_ray l, real m0, real m1) {
     return f;
 }
 
-// May the ray touch the side only: cross it near its rim, or run along it?
+// May the ray only touch the side, because it grazes the side or runs along it?
 FN lane_mask may_touch_side(local_ray l, quadratic f, real m0) {
     const lane_mask along = real_abs(f.a) <= TOUCHED * TOUCHED * dot3(l.d, l.d) && real_abs(f.c) <= TOUCHED * (m0 * m0);
     return real_abs(f.discriminant) < f.most * TOUCHED || along;
@@ -54,7 +54,7 @@ FN span tapered_piece(u32 method, GLOBAL const parameter* p, local_ray l, span s
     const real reach = REAL(1.0001) * real_sqrt(p[17] - (dot3(l.o, l.o) - middle * middle));
     s.low = (s.low - l.shift) * length;
     s.high = (s.high - l.shift) * length;
-    // A miss makes `reach` NaN, and so both limits.
+    // If the ray misses, `reach` is NaN, and so are both limits.
     s.low = s.low > middle - reach ? s.low : middle - reach;
     s.high = s.high < middle + reach ? s.high : middle + reach;
     return s;

@@ -1,16 +1,17 @@
-// Crossed eto: an elliptical torus whose ellipse crosses the axis, as BRL-CAD has it. Inside is where F(rho) F(-rho) <
-// 0 (eto.h): the points in exactly one of the ellipse and its mirror image. The points in both, a lens about the axis,
+// Crossed eto: an elliptical torus whose ellipse crosses the axis, as in BRL-CAD. A point is inside where F(rho)
+// F(-rho) < 0 (eto.h): in exactly one of the ellipse and its mirror image. The points in both, a lens about the axis,
 // are outside. The product is still a quartic along the ray: at most two segments. Surface 0. Parameters: the eto's
 // (17), then for each of three pivots its height on the axis, lin, odd and radius.
 //
 // The two factors vanish together at the two points of the lens on the axis. They also vanish on a circle where the
 // ellipse and its image cross once more, if the top of the ellipse has passed the axis. There the product has no usable
-// surface: a ray that passes near has two roots that differ by as little as its distance. So each of these pivots has a
-// form of its own. With h the height above the pivot,
+// surface: a ray that passes near has two roots whose difference is about its distance. So near each of these pivots
+// (the two points and the circle) F is written in another form. With h the height above the pivot,
 //
 //   F(rho) = E + rho O,   E = alpha (rho^2 - radius^2) + gamma h^2 + lin h,   O = 2 beta h + odd
 //
-// (radius 0 at the axis, odd 0 on the circle). Its terms vanish at the pivot as F does. The ray is cut between pivots.
+// (radius 0 at the axis, odd 0 on the circle). The terms of this form vanish at the pivot as F does. The ray is divided
+// between pivots.
 #ifndef CSGRT_GEOMETRY_CROSSED_ETO_H
 #define CSGRT_GEOMETRY_CROSSED_ETO_H
 
@@ -20,13 +21,13 @@
 #define CROSSED_PIVOTS 3             // two points, one circle
 #define CROSSED_PLACES 4             // positions on a ray: it may pass the circle twice
 #define CROSSED_NONE REAL(-1)        // radius, where there is no circle
-#define CROSSED_APART REAL(0x1p-10)  // positions on a ray that are closer are one
+#define CROSSED_APART REAL(0x1p-10)  // closer positions on a ray count as one
 #define CROSSED_STEPS 6
 
 // A position on a ray near a pivot; or the ray's origin, where F has the form of an ordinary eto.
 typedef struct {
-    vec3 o;      // the point of the ray, from the pivot's height on the axis
-    real along;  // its distance along the ray
+    vec3 o;      // the ray's point, relative to the axis at the pivot's height
+    real along;  // the point's distance along the ray
     real lin, odd, radius;
     int plain;
 } crossed_place;
@@ -126,7 +127,7 @@ FN int crossed_is_near(crossed_place place) {
     return real_fma(off, off, place.o.z * place.o.z) < ETO_PINCH_REACH * ETO_PINCH_REACH;
 }
 
-// Adds a position unless the ray is far from the pivot there, or has another position near. Ascending.
+// Adds a position, in ascending order, unless the ray is far from the pivot there or another position is near.
 FN int crossed_add(crossed_place* places, int count, crossed_place place) {
     int i;
     if (!crossed_is_near(place)) return count;
@@ -137,7 +138,7 @@ FN int crossed_add(crossed_place* places, int count, crossed_place place) {
     return count + 1;
 }
 
-// The positions where the ray passes pivots; if it passes none, its origin.
+// The positions where the ray passes pivots; if it passes no pivot, the ray's origin.
 FN int crossed_places(GLOBAL const real* p, u32 method, vec3 o, vec3 d, crossed_place* places) {
     int i, count = 0;
     for (i = 0; i < CROSSED_PIVOTS && method != QUARTIC_UNSHIFTED; ++i) {
@@ -147,7 +148,7 @@ FN int crossed_places(GLOBAL const real* p, u32 method, vec3 o, vec3 d, crossed_
         if (pivot[3] == 0) {
             count = crossed_add(places, count, crossed_at(pivot, o, d, closest));
         } else if (pivot[3] > 0) {
-            // The ball about the pivot's height on which the circle lies.
+            // The circle lies on a ball around the axis's point at the pivot's height.
             const vec3 at = add_scaled(from, closest, d);
             const real reach = real_sqrt(real_max(REAL(0), real_fma(pivot[3], pivot[3], -dot3(at, at))));
             count = crossed_add(places, count, crossed_at(pivot, o, d, crossed_closest(pivot, o, d, closest - reach)));
@@ -158,7 +159,7 @@ FN int crossed_places(GLOBAL const real* p, u32 method, vec3 o, vec3 d, crossed_
     return count;
 }
 
-// The limit between one position's quartic and the next one's: about half-way, where both have the same sign.
+// The limit between the quartics of two neighbouring positions: about half-way, where the two have the same sign.
 FN real crossed_between(quartic g, real first, quartic next, real second) {
     real share = REAL(0.5);
     int step;
@@ -208,8 +209,8 @@ NOINLINE_FN segments crossed_eto_intersect(Geometry tables, SolidRecord solid, r
     return spans_between(whole_line(), 0, roots, count > 4 ? 4 : count & ~1, 0);
 }
 
-// The normal of the factor that vanishes; reversed where the other factor is negative: there the solid's outside is
-// within both.
+// The normal of the factor that vanishes; reversed where the other factor is negative: there the inside of both is the
+// solid's outside.
 NOINLINE_FN vec3 crossed_eto_normal(GLOBAL const real* p, ray3 r, real t) {
     const vec3 at = local_point(to_local(p, r), t), still = make_vec3(0, 0, 0);
     const real rho = real_sqrt(real_fma(at.x, at.x, at.y * at.y));

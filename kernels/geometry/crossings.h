@@ -4,9 +4,9 @@
 //   crossings    |     |   |        |          of a closed surface: an even number
 //   boundaries   in   out  in      out
 //
-// A surface that is not closed leaves one crossing over: it becomes a segment of no length, which the weave drops. Some
-// open surfaces tell their inside from their outside. Their crossings are marked in or out, and an in and the very next
-// out are a pair:
+// A surface that is not closed may leave one crossing over. This crossing becomes a segment of no length, which the
+// weave drops. The triangles of some open surfaces face one way. Their crossings are marked in or out, and an in and
+// the very next out are a pair:
 //
 //   crossings    |     |     |   |     |
 //                out   in    in  out   out
@@ -16,13 +16,13 @@
 
 #include "segments.h"
 
-#define LEAVES 0x80000000u  // set in Boundary.surface of a boundary where the ray leaves such a solid
+#define LEAVES 0x80000000u  // set in Boundary.surface of a boundary where the ray leaves a solid of crossings
 
 // The crossings of a ray with one solid, collected in the memory of the solid's boundaries.
 typedef struct {
     ENDS Boundary* boundaries;  // memory for the solid's boundaries; 0: they are only counted
     u32 solid;
-    real t_min;         // segments that end before this are not wanted
+    real t_min;         // segments that end before t_min are not wanted
     u32 behind, ahead;  // crossings before t_min, and the others
     real last;          // the distance of the last crossing before t_min
     u32 last_surface;
@@ -101,7 +101,7 @@ FN u32 close_crossings(crossings c) {
 }
 
 // Pairs crossings that are already marked (LEAVES) where the ray goes out. Every out ends a segment, which has no
-// length unless an in came right before it. More segments of no length may follow, because room for all crossings was
+// length unless an in came right before it. More segments of no length may follow, because memory for all crossings was
 // counted. Returns the number of segments.
 FN u32 close_marked_crossings(crossings c, u32 outs) {
     u32 inside = c.behind > 0 && !(c.last_surface & LEAVES);  // whether the ray is inside at t_min
@@ -114,7 +114,7 @@ FN u32 close_marked_crossings(crossings c, u32 outs) {
             Boundary e = c.boundaries[i];
             c.boundaries[kept++] = e;
         }
-    // The loop runs from the back, because pairs take more room.
+    // The loop runs from the back, because pairs take more memory.
     {
         Boundary last = c.boundaries[kept > 0 ? kept - 1 : 0];
         for (i = outs; i < count; ++i) {

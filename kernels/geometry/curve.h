@@ -1,10 +1,10 @@
 // Curves: plane rational Bezier curves, and straight lines.
 //
-// A sketch stands in `words` from first_word on: the position of its reals, the number of its lines and of its curves,
-// the position in inner_nodes of the hierarchy over its lines and the number of its nodes (0: none), then for each
-// curve the position of its reals and its degree. The sketch's reals are x0 y0 x1 y1 a line. A curve's reals are x y
-// weight a control point; weights are positive, and 1 at the first and last. Points where lines and curves meet are
-// equal to the bit. Lines and curves are numbered together, lines first.
+// A sketch is stored in `words` from first_word on: the position of its reals, the number of lines, the number of
+// curves, the position in inner_nodes of the hierarchy over the lines, and the number of the hierarchy's nodes (0:
+// none). Then come for each curve the position of its reals and its degree. The sketch's reals are x0 y0 x1 y1 a line.
+// A curve's reals are x y weight a control point; weights are positive, and 1 at the first and last. Points where lines
+// and curves meet are equal to the bit. Lines and curves are numbered together, lines first.
 #ifndef CSGRT_GEOMETRY_CURVE_H
 #define CSGRT_GEOMETRY_CURVE_H
 
@@ -33,20 +33,20 @@ FN sketch sketch_of(Geometry g, SolidRecord solid) {
     return s;
 }
 
-// A point and its rate of change, homogeneous: the point is (x / w, y / w).
+// A point and its rate of change in homogeneous coordinates: the point is (x / w, y / w).
 typedef struct {
     real x, y, w;
     real dx, dy, dw;
 } curve_point;
 
-// The point at t by the last step of de Casteljau's algorithm, between the points of the curves of one degree less.
-// Each of these is summed as in Horner's rule (Farin). All terms have one sign where the coefficients do.
+// The point at t, by the last step of de Casteljau's algorithm, between the points of two curves of one degree less.
+// Each of these two points is summed as in Horner's rule (Farin). All terms have one sign where the coefficients do.
 FN curve_point curve_at(GLOBAL const real* p, u32 degree, real t) {
     curve_point c;
     real s = REAL(1) - t, factor = 1, n = REAL(degree);
     real x0 = p[0] * p[2], y0 = p[1] * p[2], w0 = p[2];
     real x1 = p[3] * p[5], y1 = p[4] * p[5], w1 = p[5];
-    real x = x1, y = y1, w = w1;  // the point that both curves have, weighted
+    real x = x1, y = y1, w = w1;  // the control point that the two curves share, weighted
     u32 i;
     for (i = 1; i < degree; ++i) {
         factor = factor * (t * REAL(degree - i)) / REAL(i);

@@ -1,21 +1,21 @@
 // Cut: a solid that planes cut out of another solid, whose crossings with the ray are found one by one and in any
-// order. The part between two planes stays, or all but this part.
+// order. Either the part between two planes is kept, or the parts outside them.
 //
 //     low                     high
 //     -----|=========|=|===============|---------|=============|=====|-----> t
 //          x         |  cut off  |     x         x             |     x         x: crossings of the other solid
 //
-// Crossings on the side that stays are the solid's own. At each of the two planes, the parity of the crossings before
-// it tells whether the ray crosses the plane inside the other solid; then this crossing is the solid's, too.
+// Crossings in the kept part are the solid's own. At each of the two planes, the parity of the crossings before the
+// plane tells whether the ray crosses the plane inside the other solid. If it does, this crossing is the solid's, too.
 #ifndef CSGRT_GEOMETRY_CUT_H
 #define CSGRT_GEOMETRY_CUT_H
 
 #include "crossings.h"
 
-// A solid under construction between two planes: the crossings that stay so far, and their parities at the planes.
+// A solid under construction between two planes: the crossings that are kept so far, and the parities at the planes.
 typedef struct {
     span between;
-    int keeps_between;      // 1: the part between the planes stays; 0: the part outside
+    int keeps_between;      // 1: the part between the planes is kept; 0: the parts outside
     u32 low_odd, high_odd;  // crossings before between.low, and before between.high
     crossings c;
 } cut;

@@ -3,8 +3,8 @@
 //   local z = -1 at the base, +1 at the apex; w = (1 - z) / 2 is the depth below the apex in units of the height:
 //   x^2 + y^2 - k w (w + 2 c) < 0,  k = 1 / (1 + 2 c),  w > -c, where the vertex of the asymptotic cone lies
 //
-// All formulas are in w and k c, which is 1/2 at most. The distance below the vertex, c + w, would lose w's digits
-// where c is large: there the solid is nearly a paraboloid.
+// All formulas are in w and k c, which is 1/2 at most. Where c is large, the solid is nearly a paraboloid. There the
+// distance below the vertex, c + w, would lose w's digits.
 #ifndef CSGRT_GEOMETRY_EHY_H
 #define CSGRT_GEOMETRY_EHY_H
 
@@ -24,7 +24,7 @@ FN segments ehy_intersect(Geometry g, SolidRecord solid, ray3 r) {
     const real w = REAL(0.5) * (REAL(1) - l.o.z), rate = REAL(-0.5) * l.d.z;
     const real vertex = l.shift - (c + w) / rate;
     real a, b, at_zero, wx, wy, cross, discriminant;
-    // The other sheet lies at w < -2 c; the cut may be anywhere between the two.
+    // The other sheet lies at w < -2 c; the ray may be cut anywhere between the two sheets.
     s.low = rate > 0 ? real_max(s.low, vertex) : s.low;
     s.high = rate < 0 ? real_min(s.high, vertex) : s.high;
     s.high = rate == 0 && c + w < 0 ? -REAL_INFINITY : s.high;

@@ -3,17 +3,18 @@
 //
 //   F(rho) = alpha (rho - 1)^2 + 2 beta (rho - 1) z + gamma z^2 - 1 < 0
 //
-// F(rho) F(-rho) is a quartic along the ray, and F(-rho) > 0 as long as the ellipse stays on its side of the axis
-// (else: crossed_eto.h). Written in R = rho^2 - 1 and G = gamma z^2 - 1 its terms stay small near a thin tube. Each
+// F(rho) F(-rho) is a quartic along the ray. F(-rho) > 0 as long as the ellipse stays on its side of the axis (else:
+// crossed_eto.h). Written in R = rho^2 - 1 and G = gamma z^2 - 1, the quartic has small terms near a thin tube. Each
 // root is polished on F itself.
 //
-// Where the ellipse nearly touches the axis, at z = beta / gamma, rounding is all that is left of these terms. With h
-// the height above this point, reach = outer radius - 1 and gap = 1 / reach^2 - 1, F has another form:
+// Where the ellipse nearly touches the axis, at z = beta / gamma, only rounding is left of these terms. With h the
+// height above this point, reach = outer radius - 1 and gap = 1 / reach^2 - 1, F has another form:
 //
 //   F(rho) = E + rho O,   F(rho) F(-rho) = E^2 - rho^2 O^2
 //   E = alpha rho^2 + gamma h^2 + gap,   O = 2 beta h - 2 (1 + gap)
 //
-// Its terms vanish with F where the gap is 0. A ray that passes near is taken from its closest approach to the point.
+// The terms of this form vanish with F where the gap is 0. The origin of a ray that passes near is its closest approach
+// to the point.
 #ifndef CSGRT_GEOMETRY_ETO_H
 #define CSGRT_GEOMETRY_ETO_H
 
@@ -31,8 +32,8 @@ typedef struct {
 
 // The pinch, the point where the ellipse is nearest to the axis, relative to a ray that passes it (tor.h).
 typedef struct {
-    vec3 o;      // the ray's closest approach, from the pinch
-    real along;  // its distance along the ray
+    vec3 o;      // the ray's closest approach, relative to the pinch
+    real along;  // the distance of the closest approach along the ray
     real gap;
     int passes;  // whether the ray passes near
 } eto_pinch;
@@ -50,7 +51,7 @@ FN eto_pinch eto_pinch_of(GLOBAL const real* p, u32 method, vec3 o, vec3 d) {
         pinch.o.z = o.z - p[13] / p[14];
         pinch.along = -dot3(pinch.o, d);
         pinch.o = add_scaled(pinch.o, pinch.along, d);
-        // An ellipse that touches the axis may pass it by rounding.
+        // By rounding, an ellipse that touches the axis may cross it.
         pinch.gap = real_max(REAL(0), (REAL(2) - p[16]) * p[16] / (reach * reach));
         pinch.passes = dot3(pinch.o, pinch.o) < ETO_PINCH_REACH * ETO_PINCH_REACH;
     }

@@ -4,8 +4,8 @@
 //
 // Seen along the height the ray is a line in the sketch's plane. Each crossing of the outline turns inside into outside
 // (even-odd), and the caps cut the solid out of this prism. The side of the line on which a point lies is the sign of
-// one expression. So all lines and curves that meet in a point agree about it, and a closed outline has an even number
-// of crossings, whether the ray hits vertices or not.
+// one expression. So all lines and curves that meet in a point get the same side, and a closed outline has an even
+// number of crossings, whether the ray hits vertices or not.
 #ifndef CSGRT_GEOMETRY_EXTRUDE_H
 #define CSGRT_GEOMETRY_EXTRUDE_H
 
@@ -36,12 +36,12 @@ typedef struct {
     line2 line;
     real speed;  // change of the line's parameter as t grows; 0: the ray runs along the height
     real slack;  // WALL_SLACK in units of t
-    int steep;   // the ray nearly runs along the height: then the line's direction is rounding's
+    int steep;   // the ray nearly runs along the height: then rounding decides the line's direction
 } sketch_ray;
 #define STEEP REAL(0x1p-20)
 
-// The sketch_ray of a local ray. A ray along the height has no direction there: then any line through the point will
-// do.
+// The sketch_ray of a local ray. A ray along the height has no direction in the sketch's plane. Then any line through
+// the ray's point serves.
 FN sketch_ray to_sketch(local_ray l) {
     sketch_ray w;
     const real length = real_sqrt(dot3(l.d, l.d));
@@ -64,15 +64,15 @@ FN sketch_ray to_sketch(local_ray l) {
     return w;
 }
 
-// The distance of a point along the line. A ray along the height is inside the outline, all the way, if an odd number
-// of crossings lies to one side of it: these count as before everything, the others as after it.
+// The distance of a point along the line. A ray along the height is inside the outline all the way if an odd number of
+// crossings lies to one side of it. Crossings on this side get the distance -infinity, the others +infinity.
 FN real distance_at(sketch_ray w, real place) {
     if (w.speed == 0) return place > 0 ? -REAL_INFINITY : REAL_INFINITY;
     return w.ray.shift + place / w.speed;
 }
 
-// May the ray run in the wall over a line? add_wall tests more exactly. The limit is the size of rounding, however far
-// the ray comes from.
+// May the ray run in the wall over a line? add_wall tests more exactly. The limit is above rounding, however far away
+// the ray starts.
 #define IN_WALL REAL(0x1p-30)
 FN int may_run_in_wall(sketch_ray w, GLOBAL const real* p) {
     if (real_abs(side_of(w.line, p[0], p[1])) <= IN_WALL && real_abs(side_of(w.line, p[2], p[3])) <= IN_WALL) return 1;
@@ -99,12 +99,13 @@ FN cut meet_line(cut k, sketch_ray w, GLOBAL const real* p, Geometry g, u32 plan
     place = place_along(w.line, p[0], p[1]);
     place = real_fma(place_along(w.line, p[2], p[3]) - place, side0 / (side0 - side1), place);
     t = distance_at(w, place);
-    // The wall's plane may be another solid's, too: its t is used, except for rays that nearly run along the wall.
+    // Another solid may share the wall's plane, so the plane's t is used, except for rays that nearly run along the
+    // wall.
     to_wall = face_distance(g, plane, r);
     return cut_crossing(k, real_abs(to_wall - t) <= w.slack ? to_wall : t, surface);
 }
 
-// Can the line cross anything in a box? The boxes are padded by far more than rounding.
+// Can the line cross anything in a box? Boxes have a padding that is far larger than rounding.
 FN int enters_box(line2 l, BvhNode box) {
     real x = REAL(0.5) * (REAL(box.low[0]) + REAL(box.high[0])), y = REAL(0.5) * (REAL(box.low[1]) + REAL(box.high[1]));
     real half_x = REAL(box.high[0]) - x, half_y = REAL(box.high[1]) - y;
@@ -143,7 +144,7 @@ FN beside find_walls(Geometry g, SolidRecord solid, ray3 r) {
     return b;
 }
 
-// The point of a curve on the line, where it changes sides between two parameters.
+// The point of a curve on the line. Between the two parameters of `found` the curve changes sides.
 FN curve_point point_on_line(GLOBAL const real* p, u32 degree, line2 l, sign_walk found) {
     bracket b = start_bracket(found.low, found.high, !found.positive);
     curve_point at = curve_at(p, degree, b.at);
@@ -157,7 +158,8 @@ FN curve_point point_on_line(GLOBAL const real* p, u32 degree, line2 l, sign_wal
     return at;
 }
 
-// The sides of a curve's control points, as the coefficients of a polynomial whose sign tells the side of the curve.
+// The sides of a curve's control points, as the coefficients of a polynomial. Its sign is the side on which the curve
+// is.
 FN void sides_of(GLOBAL const real* p, u32 degree, line2 l, real* c) {
     u32 i;
     for (i = 0; i <= degree; ++i) c[i] = p[3 * i + 2] * side_of(l, p[3 * i], p[3 * i + 1]);
@@ -228,7 +230,7 @@ FN vec3 extrude_normal(Geometry g, SolidRecord solid, ray3 r, real t, u32 surfac
         GLOBAL const u32* curve = s.curves + 2 * (wall - EXTRUDE_ENDS - s.line_count);
         n = curved_wall_normal(g.reals + solid.first_real, g.reals + curve[0], curve[1], r, t);
     }
-    // A curve has no inner side of its own: the ray tells.
+    // A curve does not know its inner side. The ray's direction decides.
     return (dot3(n, r.d) > 0) == (leaves != 0) ? n : scale(n, REAL(-1));
 }
 

@@ -1,6 +1,6 @@
-// Ferrari: the roots of a quartic in closed form (Ferrari 1545). The largest root of its resolvent cubic splits it into
-// two quadratics. The method is fast where it works, and wrong where two of its steps subtract near-equal numbers. It
-// is here for comparison.
+// Ferrari: the roots of a quartic in closed form (Ferrari 1545). The largest root of the resolvent cubic splits the
+// quartic into two quadratics. The method is fast, but wrong where two of its steps subtract near-equal numbers. It is
+// here for comparison.
 //
 //   u = y - c3 / 4:   y^4 + p y^2 + q y + r  =  (y^2 + s y + e) (y^2 - s y + f),   s^2 = 2 m
 //   m^3 + p m^2 + (p^2 / 4 - r) m - q^2 / 8 = 0
@@ -10,8 +10,8 @@
 #include "polynomial.h"
 #include "power.h"
 
-// cos(acos(x) / 3), which is the c in [1/2, 1] with 4 c^3 - 3 c = x. (2 c - 1)^2 (c + 1) = x + 1 gives a start that is
-// good at the double root, too; then Newton's method.
+// cos(acos(x) / 3), which is the c in [1/2, 1] with 4 c^3 - 3 c = x. (2 c - 1)^2 (c + 1) = x + 1 gives a first value
+// that is accurate at the double root, too. Newton's method improves it.
 FN real cosine_of_third(real x) {
     real above = real_max(REAL(0), x + REAL(1));
     real c = REAL(0.5) + REAL(0.5) * real_sqrt(above / REAL(1.75));
@@ -51,7 +51,8 @@ FN int insert_root(real* roots, int count, real u, real low, real high) {
     return count + 1;
 }
 
-// Inserts the roots of y^2 + 2 b y + c, moved by `shift`. A double root is left out: nothing changes its sign there.
+// Inserts the roots of y^2 + 2 b y + c, moved by `shift`. A double root is left out, because the polynomial does not
+// change its sign there.
 FN int insert_pair(real* roots, int count, real b, real c, real shift, real low, real high) {
     real discriminant = b * b - c, q;
     if (!(discriminant > 0)) return count;

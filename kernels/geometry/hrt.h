@@ -9,7 +9,8 @@
 // whose gradient is not 0 almost everywhere: only the dimples on the z axis are pointed.
 //
 // The ray is cut where A or B is least and where z is 0. On each part A, A', B, B' and z are monotone. So the ranges of
-// F and of its derivatives follow from their values at both ends of an interval; intervals are walked as in superell.h.
+// F and of its derivatives follow from the values at the two limits of an interval. Intervals are walked as in
+// superell.h.
 #ifndef CSGRT_GEOMETRY_HRT_H
 #define CSGRT_GEOMETRY_HRT_H
 
@@ -163,7 +164,8 @@ FN span hrt_clip(span s, real at, real rate, real low, real high) {
     return s;
 }
 
-// The heart lies within 1.14, 0.67 and -1 to 1.24; the searched box is larger, so that both limits are outside.
+// The heart lies within |x| < 1.14, |y| < 0.67 and -1 < z < 1.24. The searched box is larger, so that both limits are
+// outside.
 FN crossings hrt_cross(GLOBAL const real* p, ray3 r, crossings c) {
     local_ray l = to_local(p, r);
     real length = real_sqrt(dot3(l.d, l.d));

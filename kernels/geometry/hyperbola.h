@@ -1,12 +1,12 @@
-// Hyperbola: where a ray crosses the surface that a line or curve sweeps about an axis.
+// Hyperbola: finds where a ray crosses the surface that a line or curve sweeps about an axis.
 //
-// The ray stands for a hyperbola in the half plane of the curve: at height z its distance from the axis is
+// Turned into the half plane of the curve, the ray is a hyperbola: at height z its distance from the axis is
 //
 //     rho(z)^2 = p^2 + x(z)^2,   x(z) = q + (z - oz) across / dz     p: the ray's distance from the axis
 //
-// A curve crosses it where f = dz^2 (r^2 - p^2) - (dz q + (z - oz) across)^2 changes its sign, a polynomial of twice
-// the curve's degree. f is positive where the curve is farther from the axis than the ray, and has the same value at a
-// vertex for both curves that meet there.
+// A curve crosses the hyperbola where f = dz^2 (r^2 - p^2) - (dz q + (z - oz) across)^2 changes its sign. f is a
+// polynomial of twice the curve's degree. It is positive where the curve is farther from the axis than the ray, and has
+// the same value at a vertex for both curves that meet there.
 //
 //     z |   \      |       flat rays (dz small): the hyperbola closes to the line z = oz, run through twice
 //       |    \     |
@@ -15,7 +15,7 @@
 //       |   /    `-x-'     there is one crossing on each arm, or none.
 //       +---------------- r
 //
-// Points on the axis are nearer to it than any ray, so an outline may end there.
+// Points on the axis count as nearer to the axis than any ray, so an outline may end there.
 #ifndef CSGRT_GEOMETRY_HYPERBOLA_H
 #define CSGRT_GEOMETRY_HYPERBOLA_H
 
@@ -24,15 +24,15 @@
 #include "curve.h"
 #include "polynomial.h"
 
-#define FLAT_RAY REAL(0.5)                           // dz of a unit direction below which rays are taken as flat
+#define FLAT_RAY REAL(0.5)                           // rays whose unit direction has a smaller |dz| are flat
 #define FAINT REAL(1e-37)                            // greater than 0 and less than any rounding of f
-#define POLISH_REACH BY_PRECISION(1e-3, 1e-6, 1e-6)  // no step of the last polish is longer
+#define POLISH_REACH BY_PRECISION(1e-3, 1e-6, 1e-6)  // the longest step of the last polish
 
 // The ray about the axis, in a unit direction: at s its height is oz + s dz and x = q + s across.
 typedef struct {
     real shift, speed;  // t = shift + s / speed
     real dz, across, p, q, oz;
-    int flat;  // 1: s is counted from where the ray passes the axis, so q is 0
+    int flat;  // 1: s is 0 where the ray passes the axis, so q is 0
 } axis_ray;
 
 FN axis_ray around_axis(local_ray l) {
@@ -85,7 +85,7 @@ FN profile_point profile_at(GLOBAL const real* p, u32 degree, u32 stride, real t
 }
 
 // The polynomial f of a curve, in Bernstein form: products of linear forms of its control points. The values at 0 and 1
-// are one difference of products each, the same for every curve that ends there.
+// are one difference of products each, and the same for every curve that ends in this point.
 FN void radial_form(GLOBAL const real* p, u32 degree, u32 stride, axis_ray a, real* f) {
     real less[CURVE_SIZE], more[CURVE_SIZE], x[CURVE_SIZE];  // each times the binomial coefficient
     real binomial = 1;
@@ -112,10 +112,10 @@ FN void radial_form(GLOBAL const real* p, u32 degree, u32 stride, axis_ray a, re
 FN int radial_sign(axis_ray a, real f, real r, real z) { return a.flat && z == a.oz ? r > a.p : f > 0; }
 
 // The crossing in [low, high] of a curve, where f changes its sign from `positive`, and its distance along the ray.
-// `arm` says on which arm of the hyperbola a flat ray is met: its sign is that of s.
+// `arm`: the arm of the hyperbola on which a flat ray is met; it has the sign of s.
 typedef struct {
     real at, s;
-    int within;  // of a flat ray: there the curve is no farther from the axis than the ray comes
+    int within;  // of a flat ray: the curve is no farther from the axis here than the ray's closest point
 } radial_root;
 
 FN radial_root root_of_form(GLOBAL const real* p, u32 degree, u32 stride, axis_ray a, bracket b, real arm) {
@@ -168,7 +168,8 @@ FN radial_root root_of_form(GLOBAL const real* p, u32 degree, u32 stride, axis_r
     return root;
 }
 
-// The crossings of one curve, one after the other. f is evaluated between two splits at a time.
+// The crossings of one curve, one after the other. A split is where the curve crosses z = oz; f is evaluated between
+// two neighbouring splits.
 typedef struct {
     GLOBAL const real* p;
     u32 degree, stride;
@@ -178,8 +179,8 @@ typedef struct {
     real low, high;
     int high_positive;  // f at `high`
     int above;          // z > oz between the splits
-    int is_last;        // nothing comes behind `high`: a split may lie at 1, a bit before the curve's end
-    radial_root ahead;  // found already, unless `within` is 1
+    int is_last;        // no part follows `high`; high = 1 does not tell, because a split may round to 1
+    radial_root ahead;  // a crossing that is found already, unless `within` is 1
 } profile_walk;
 
 FN void next_part(profile_walk* w, axis_ray a) {
@@ -215,7 +216,7 @@ FN int start_profile_walk(profile_walk* w, GLOBAL const real* p, u32 degree, u32
         beyond += p[stride * i] > a.p;
         w->level[i] = (p[stride * i + 1] - a.oz) * (stride == 3 ? p[stride * i + 2] : REAL(1));
     }
-    if (!beyond) return 0;  // the ray passes the axis outside
+    if (!beyond) return 0;  // the ray passes outside the whole curve
     w->p = p;
     w->degree = degree;
     w->stride = stride;
@@ -231,7 +232,7 @@ FN int start_profile_walk(profile_walk* w, GLOBAL const real* p, u32 degree, u32
     return 1;
 }
 
-// Moves to the next crossing between two splits. 0: there is none.
+// Moves to the next crossing between two splits. 0: no crossing is left.
 FN int next_in_part(profile_walk* w, axis_ray a, radial_root* root) {
     real size = w->high - w->low;
     bracket b;
@@ -248,8 +249,8 @@ FN int next_profile_crossing(profile_walk* w, axis_ray a, radial_root* root) {
         return 1;
     }
     for (;;) {
-        // Where f touches 0, as at z = oz if the ray runs across the axis, rounding makes two crossings of none: f is
-        // negative wherever the curve is nearer to the axis than the ray. Such a pair is left out.
+        // Where f touches 0, as at z = oz if the ray runs across the axis, rounding may make two crossings where there
+        // is none: f is negative wherever the curve is nearer to the axis than the ray. Such a pair is left out.
         while (next_in_part(w, a, root))
             if (!root->within || !w->signs.positive || !next_in_part(w, a, &w->ahead) || !w->ahead.within) return 1;
         if (w->is_last) return 0;

@@ -1,5 +1,5 @@
-// Mesh: surfaces of triangles. A closed surface encloses its inside by parity (see crossings.h), whichever way its
-// triangles face. An open surface whose triangles face one way has an inside where a ray does not come through a gap.
+// Mesh: surfaces of triangles. A closed surface encloses its inside by parity (see crossings.h), however its triangles
+// are oriented. An open surface whose triangles face one way has an inside for rays that do not pass through a gap.
 // Parameters, words: see triangle.h. Surfaces: the triangles, and LEAVES where the ray goes out.
 #ifndef CSGRT_GEOMETRY_MESH_H
 #define CSGRT_GEOMETRY_MESH_H
@@ -9,26 +9,25 @@
 #include "triangle.h"
 
 // The triangles that a ray meets, one after the other in the order of the hierarchy. Triangles before t_min count, too:
-// they tell whether the ray is inside there.
+// their number tells whether the ray is inside at t_min.
 typedef struct {
     GLOBAL const real* vertices;
     GLOBAL const BvhNode* nodes;
     GLOBAL const u32* triangles;
     upright_ray ray;
-    real edge_on;  // the product of an edge's two points below which rounding may hide that they are in one plane with
-                   // the ray
+    real edge_on;  // the ray may run in a plane with an edge whose points have a smaller product
     slab_ray slab;
     bvh_cursor cursor;
     u32 next, last;  // triangles of the leaf that are left
     u32 triangle;    // the triangle that the ray meets; NONE: there is none
     real t;          // the distance of the hit
-    int clockwise;   // the turn of its corners, seen along the ray
-    u32 near_face;   // the ray has come near a triangle that is seen edge-on,
-    u32 near_edge;   // near a line through two corners
+    int clockwise;   // the turn of the triangle's corners, seen along the ray
+    u32 near_face;   // the ray has come near a triangle that is seen edge-on
+    u32 near_edge;   // the ray has come near a line through two corners
 } mesh_walk;
 
-// The product of two points that is next to 0, in units of their distance from a line through 0: they lie within twice
-// MESH_RADIUS of it.
+// The product of an edge's two points that counts as 0, in units of their distance from a line through 0: the points
+// lie within twice MESH_RADIUS of 0.
 #define EDGE_ON (REAL(8) * MESH_RADIUS)
 
 FN mesh_walk start_mesh_walk(Geometry g, GLOBAL const u32* mesh, GLOBAL const real* place, ray3 r, beside b) {
@@ -94,8 +93,8 @@ FN beside find_triangles(Geometry g, SolidRecord solid, ray3 r) {
     return b;
 }
 
-// The square of a cosine. Along a triangle with a smaller cosine the ray would slide back, and off it: there the step
-// moves its boundary less.
+// The square of a cosine. moved_back() leaves hits of triangles with a smaller cosine alone: the correction would move
+// such a hit off the triangle, and the step aside has moved it less.
 #define SLIDES REAL(0x1p-14)
 
 // The distance where the unmoved ray meets the plane of a triangle that it meets aside of a face.
@@ -127,8 +126,8 @@ WHOLE_FN u32 mesh_collect(Geometry g, SolidRecord solid, ray3 r, crossings c, be
     return facing ? close_marked_crossings(c, outs) : close_crossings(c);
 }
 
-// The normal of a triangle: against the ray where it goes in, along it where it goes out. The triangles may face either
-// way.
+// The normal of a triangle: against the ray where the ray goes in, along the ray where it goes out. The triangles may
+// have any orientation.
 FN vec3 mesh_normal(Geometry g, GLOBAL const u32* mesh, GLOBAL const real* place, ray3 r, u32 surface) {
     GLOBAL const u32* corners = mesh + MESH_TRIANGLES + 3 * (size_t)(surface & ~LEAVES);
     vec3 n = triangle_normal(g.reals + mesh[MESH_VERTICES], corners);

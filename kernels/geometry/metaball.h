@@ -11,9 +11,9 @@
 //
 //   F = threshold - sum of phi < 0
 //
-// Along the ray v = m + (u - u0)^2 for each point, so its range over an interval is known exactly; phi and its
+// Along the ray v = m + (u - u0)^2 for each point, so the range of v over an interval is known exactly. phi and its
 // derivatives by v are monotone. The ranges of F, F' and F'' are sums of ranges; intervals are walked as in superell.h.
-// Points whose balls the interval does not meet are left out of the sums, so a ray past n balls takes n log n steps.
+// The sums leave out points whose balls the interval does not meet, so a ray past n balls takes n log n steps.
 #ifndef CSGRT_GEOMETRY_METABALL_H
 #define CSGRT_GEOMETRY_METABALL_H
 
@@ -99,7 +99,7 @@ FN metaball_ray metaball_ray_of(Geometry g, SolidRecord solid, vec3 o, vec3 d) {
     return l;
 }
 
-// The points whose fields are not 0 in an interval of the ray, or more points, in order.
+// The walk through the points whose fields may not be 0 in an interval of the ray, in order.
 typedef struct {
     bvh_cursor cursor;
     single from, to;
@@ -130,7 +130,7 @@ FN u32 metaball_next(metaball_ray l, metaball_walk* w) {
     return w->next++;
 }
 
-// One point's nearest position along the ray, and the square of its distance there.
+// The position of the ray that is nearest to a point, and the square of the distance there.
 typedef struct {
     real at, least;
 } metaball_pass;

@@ -1,6 +1,6 @@
 // Particle: two balls on the local z axis and the cone that touches both. Parameters: affine (12, a similarity), then
 // z0, r0, z1, r1 of the balls, the cone's radius m0 + m1 z, and the range of z in which the cone runs: between the
-// circles where it touches the balls. No cone (low > high): one ball holds the other.
+// circles where it touches the balls. There is no cone (low > high) if one ball contains the other.
 //
 //         .-""-._____
 //        /   :       ``.        The solid is convex: the least in and the greatest out of its parts along a ray are its
@@ -8,8 +8,8 @@
 //        \   :_____ ..'         point lies at the very circle, and counts as the ball's.
 //         `-..-'
 //
-// Its normal turns without a jump, so it has one surface, 0. A particle that ends in a point has this point as its
-// local origin.
+// The solid's normal has no jump, so there is one surface, 0. A particle that ends in a point has its local origin
+// there.
 #ifndef CSGRT_GEOMETRY_PART_H
 #define CSGRT_GEOMETRY_PART_H
 

@@ -1,4 +1,4 @@
-// Planes stand in one world-space table and are intersected from there, never through a solid's own matrix. So two
+// Planes are stored in one world-space table and intersected in world space, never through a solid's own matrix. So two
 // solids that share a plane compute the same t to the last bit, and the sort sees an exact tie.
 #ifndef CSGRT_GEOMETRY_PLANE_H
 #define CSGRT_GEOMETRY_PLANE_H
@@ -19,7 +19,7 @@ FN lane_mask runs_in(PlaneRecord plane, ray3 r) {
 
 // Clips `s` to the side n . p <= d of a plane, in units of the ray's direction. An empty result has low >= high. A ray
 // that is parallel to the plane, as far as rounding lets csgrt tell, stays on its side. A ray that runs in the plane is
-// on the side that is kept: it touches the face, on whichever side of it rounding has put the ray.
+// on the side that is kept: it touches the face, whatever rounding does.
 FN span clip(span s, PlaneRecord plane, u32 flipped, ray3 r, u32 surface) {
     const real above = plane_above(plane, r), rate = dot3(narrow(plane_normal(plane)), r.d), t = -above / rate;
     const lane_mask parallel = real_abs(rate) <= ROUNDING * sum_of_sizes(r.d);
@@ -49,8 +49,8 @@ FN span clip_to_face(span s, Geometry g, u32 index, ray3 r, u32 surface) {
     return clip(s, g.planes[ref >> 1], ref & 1u, r, surface);
 }
 
-// The distance where the ray meets the plane: the same t, to the last bit, as in clip(). Not finite if the ray runs
-// along the plane.
+// The distance where the ray meets the plane: the same t, to the last bit, as in clip(). It is not finite if the ray is
+// parallel to the plane.
 FN real face_distance(Geometry g, u32 index, ray3 r) {
     PlaneRecord plane = g.planes[g.words[index] >> 1];
     return -plane_above(plane, r) / dot3(narrow(plane_normal(plane)), r.d);

@@ -5,28 +5,29 @@
 //     triangle | x
 //     ---------|/-----------  behind / cos          cos 1 if the thickness is measured along the ray
 //
-// Seen along the ray, a plate ends at a line: an edge of the surface, or an edge whose two triangles lie to one side of
+// Seen along the ray, a plate ends at an edge of the surface, or at an edge whose two triangles lie on the same side of
 // it. A ray through such a line runs in the plane of the ray and the line, as in a flat face of a solid (beside.h).
 //
-// Parameters: those of the transform, as triangle.h has them, then SKIN: how thick along the ray, in the world,
-// triangles without thickness are. Words: PLATE_*, then the mesh's. Surfaces as in mesh.h.
+// Parameters: affine (12), as in triangle.h, then SKIN: the thickness along the ray, in the world, of triangles that
+// have none. Words: PLATE_*, then the mesh's. Surfaces as in mesh.h.
 #ifndef CSGRT_GEOMETRY_PLATE_H
 #define CSGRT_GEOMETRY_PLATE_H
 
 #include "mesh.h"
 
-#define PLATE_SKIN 12  // among the parameters
+#define PLATE_SKIN 12  // index of this parameter
 
 #define PLATE_EXTENTS 0    // position in `reals`: before and behind for each triangle
 #define PLATE_ALONG_RAY 1  // 1: measured along the ray
 #define PLATE_ACROSS 2     // position in `words`: for each edge of each triangle its other triangle's corner, or NONE
 #define PLATE_MESH 3
 
-// The least cosine: at a smaller one the thickness along the ray has no meaning.
+// The least cosine: at a smaller cosine the thickness along the ray has no meaning.
 #define PLATE_FLATTEST BY_PRECISION(1e-5, 1e-9, 1e-9)
 
-// The segment of a plate that the ray meets at w.t; empty: the ray misses it, or it lies before t_min. A ray that
-// grazes a plate stays in it for long, and far beyond the solid's box, as in BRL-CAD (Frame.whole_lines).
+// The segment of a plate that the ray meets at w.t; empty if the ray is nearly parallel to the plate, or if the segment
+// ends before t_min. A ray that grazes a plate has a long segment, far beyond the solid's box, as in BRL-CAD
+// (Frame.whole_lines).
 FN span plate_span(mesh_walk w, GLOBAL const u32* words, GLOBAL const real* extents, real skin, real t_min) {
     real before = extents[2 * (size_t)w.triangle], behind = extents[2 * (size_t)w.triangle + 1];
     real speed = real_sqrt(dot3(w.ray.ray.d, w.ray.ray.d));

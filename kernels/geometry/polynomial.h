@@ -5,8 +5,8 @@
 #include "quadratic.h"
 
 // The intervals within `s` (in t = shift + u) where q(u) = a u^2 + 2 b u + c is negative: up to two. `discriminant` is
-// b^2 - a c, which the caller knows in a form that does not cancel. The roots are taken in the form that never
-// subtracts near-equal numbers.
+// b^2 - a c, which the caller knows in a form without cancellation. The formula of the roots never subtracts near-equal
+// numbers.
 //
 //   a > 0:  between the roots          a < 0:  outside them, or everywhere
 FN segments quadratic_inside(real a, real b, real c, real discriminant, real shift, span s, u32 surface) {
@@ -64,10 +64,10 @@ FN quartic derivative(quartic p) {
 }
 
 // The one root of p between a and b, where p has different signs. Halley's steps start from u, or from the middle, and
-// bisection keeps them within the bracket. With p = f0 + f1 v + f2 v^2 + f3 v^3 + ... around u, the root lies at v =
-// -f0 / f1, less some v^2 f2 / f1, which Halley's step includes. The error that the step leaves is of the size of v^3
-// ((f2 / f1)^2 - f3 / f1). If this is no more than rounding, the root is found, and another step would only measure
-// rounding. 100 steps halve any bracket of doubles to neighbours; Halley's method takes about 3.
+// bisection keeps them within the bracket. With p = f0 + f1 v + f2 v^2 + f3 v^3 + ... around u, the root lies at about
+// v = -f0 / f1 - v^2 f2 / f1, which is Halley's step. The error of the step is about v^3 ((f2 / f1)^2 - f3 / f1). If
+// this is no more than rounding, the root is found. 100 steps halve any bracket of doubles to neighbours; Halley's
+// method takes about 3.
 #define ROOT_STEPS (sizeof(real) == 16 ? 240 : 100)
 #define ROOT_PRECISION BY_PRECISION(0x1p-25, 0x1p-54, 0x1p-114)
 FN real bracketed_root(quartic p, real a, real b, int negative_at_a, real u) {
@@ -98,10 +98,10 @@ FN real bracketed_root(quartic p, real a, real b, int negative_at_a, real u) {
     return u;
 }
 
-// The number of roots of p between low and high, if it is certain at once: 0, 1, or 2 with `split` between them. Else
-// 3. The coefficients in Bernstein form change their sign as often as p does, or two or four times more often
-// (Descartes' rule; Lane and Riesenfeld 1981). Coefficients whose sign may be rounding's decide nothing. The straight
-// lines between the coefficients cross 0 near the roots: `near`.
+// The number of roots of p between low and high, if the coefficients decide it: 0, 1, or 2 with `split` between them.
+// Else 3. The coefficients in Bernstein form change their sign as often as p does, or two or four times more often
+// (Descartes' rule; Lane and Riesenfeld 1981). Coefficients whose sign may be an effect of rounding decide nothing.
+// `near`: where the straight lines between the coefficients cross 0, which is near the roots.
 FN int certain_roots(quartic p, real low, real high, real* split, real* near) {
     const real w = high - low, reach = real_max(real_abs(low), real_abs(high));
     const real doubt =
@@ -109,7 +109,8 @@ FN int certain_roots(quartic p, real low, real high, real* split, real* near) {
         real_fma(real_fma(real_fma(real_fma(real_abs(p.c[4]), reach, real_abs(p.c[3])), reach, real_abs(p.c[2])), reach,
                           real_abs(p.c[1])),
                  reach, real_abs(p.c[0]));
-    // p's value and derivatives at `low`, each over the factorial of its order and binomial, in units of the width.
+    // p's value and derivatives at `low`, each divided by the factorial of its order and by its binomial coefficient,
+    // in units of the width.
     const real d1 =
         real_fma(real_fma(real_fma(REAL(4) * p.c[4], low, REAL(3) * p.c[3]), low, REAL(2) * p.c[2]), low, p.c[1]) * w *
         REAL(0.25);
@@ -140,7 +141,7 @@ FN int certain_roots(quartic p, real low, real high, real* split, real* near) {
 }
 
 // The turning points of p in (low, high): ascending, at most 3. The turning points of the derivative are the roots of a
-// quadratic, so each root of the derivative is alone in its bracket.
+// quadratic, so between two neighbours among them lies one root of the derivative at most.
 NOINLINE_FN int turning_points(quartic p, real low, real high, real* turns) {
     const quartic d1 = derivative(p);
     const real a = REAL(3) * d1.c[3], b = d1.c[2], c = d1.c[1];  // the second derivative: a u^2 + 2 b u + c
@@ -166,9 +167,9 @@ NOINLINE_FN int turning_points(quartic p, real low, real high, real* turns) {
     return count;
 }
 
-// The points where p changes its sign in (low, high): ascending, at most 4. Negative counts as inside; zero does not.
-// certain_roots() answers most cases. Else the turning points bracket the roots: every bracket holds a monotone part,
-// and the signs at both sides decide about the root. Counts and signs thus always agree.
+// The points where p changes its sign in (low, high): ascending, at most 4. Only negative counts as inside.
+// certain_roots() decides most cases. Else the turning points bracket the roots: p is monotone in every bracket, and
+// the signs at its limits tell whether it holds a root. So counts and signs always agree.
 FN int sign_changes(quartic p, real low, real high, real* roots) {
     real knots[5], near[2];
     int count = 0, i, negative = quartic_at(p, low) < 0;

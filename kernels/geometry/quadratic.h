@@ -1,4 +1,4 @@
-// Quadratic: the interval between its two roots, where it is negative.
+// Quadratic: the interval where a quadratic is negative, between its two roots.
 #ifndef CSGRT_GEOMETRY_QUADRATIC_H
 #define CSGRT_GEOMETRY_QUADRATIC_H
 
@@ -11,13 +11,14 @@ FN real difference_of_products(real a, real b, real c, real d) {
     return real_fma(a, b, -cd) + lost;
 }
 
-// The part of `s` that lies between the roots, as quadratic_inside (polynomial.h) for a > 0. The roots are taken in the
-// form that never subtracts near-equal numbers.
+// The part of `s` that lies between the roots, as quadratic_inside (polynomial.h) for a > 0. The formula of the roots
+// never subtracts near-equal numbers.
 FN segments between_roots(real a, real b, real c, real discriminant, real shift, span s, u32 surface) {
     const lane_mask real_roots = discriminant > 0, inside_at_0 = c < 0;
     real root, q, u1, u2, low, high;
     if (no_lane(real_roots || inside_at_0)) return no_segments();
-    // A ray inside at u = 0 has roots, however far. Along an asymptote `a` is rounding, and so is the discriminant.
+    // A ray that is inside at u = 0 has roots, however far away. Along an asymptote only rounding is left of `a` and of
+    // the discriminant.
     discriminant = real_roots ? discriminant : real_fma(b, b, -a * c);
     root = real_sqrt(discriminant);
     q = b > 0 ? -(b + root) : root - b;

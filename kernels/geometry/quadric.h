@@ -8,7 +8,7 @@
 //   rpc  parabolic cylinder          y^2 + z - 1                  base z > 0, ends |x| < 1
 //   rhc  hyperbolic cylinder         y^2 - k z^2 + k c^2          base, ends; a plane that cuts the other branch off
 //
-// Planes: as many as there are; surface 0 is the quadric, surface 1 + i plane i.
+// Planes: any number; surface 0 is the quadric, surface 1 + i plane i.
 #ifndef CSGRT_GEOMETRY_QUADRIC_H
 #define CSGRT_GEOMETRY_QUADRIC_H
 
@@ -37,8 +37,8 @@ FN segments quadric_intersect(Geometry g, SolidRecord solid, ray3 r) {
     a = real_fma(qx * l.d.x, l.d.x, real_fma(qy * l.d.y, l.d.y, qz * l.d.z * l.d.z));
     b = real_fma(qx * l.o.x, l.d.x, real_fma(qy * l.o.y, l.d.y, qz * l.o.z * l.d.z));
     c = real_fma(qx * l.o.x, l.o.x, real_fma(qy * l.o.y, l.o.y, qz * l.o.z * l.o.z));
-    // The discriminant b^2 - a c of the squares alone is -(qx qy (o x d)z^2 + ...), by Lagrange's identity: nothing
-    // large cancels.
+    // The discriminant b^2 - a c of the squares alone is -(qx qy (o x d)z^2 + ...), by Lagrange's identity: no large
+    // terms cancel.
     xy = difference_of_products(l.o.x, l.d.y, l.o.y, l.d.x);
     yz = difference_of_products(l.o.y, l.d.z, l.o.z, l.d.y);
     zx = difference_of_products(l.o.z, l.d.x, l.o.x, l.d.z);
@@ -54,7 +54,8 @@ FN segments quadric_intersect(Geometry g, SolidRecord solid, ray3 r) {
             of_squares + real_abs(half_rate) * (REAL(2) * real_abs(b) + real_abs(half_rate)) + real_abs(a * rest);
         b = b + half_rate;
         c = c + rest;
-        // Along a straight line of the surface a, b and c vanish together: then they give the better discriminant.
+        // Along a straight line of the surface a, b and c vanish together. There b^2 - a c is the more accurate
+        // discriminant.
         discriminant = real_abs(b) * all_b + real_abs(a) * all_c + real_abs(c) * all_a < REAL(0.0625) * of_squares
                            ? difference_of_products(b, b, a, c)
                            : discriminant;

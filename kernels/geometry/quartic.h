@@ -12,15 +12,15 @@
 #include "ferrari.h"
 #include "polynomial.h"
 
-// The error at which Yuksel's search ends, in units of the solid: half the digits, as in his own code; the solid
-// polishes its roots.
+// The error at which Yuksel's search ends, in units of the solid: half the digits, as in Yuksel's own code. The solid
+// polishes the roots.
 #define YUKSEL_ERROR BY_PRECISION(6e-4, 6e-7, 6e-7)
 #define YUKSEL_STEPS 100
 
-// The longest step with which a solid polishes a root on a form of its own, in the solid's units.
+// The longest step by which a solid polishes a root, in the solid's units.
 #define POLISH_STEP BY_PRECISION(1e-3, 1e-6, 1e-6)
 
-// Newton's method from the middle of [a, b], within the rest of the bracket, until a step is no longer than the error.
+// Newton's method from the middle of [a, b], within the shrinking bracket, until a step is no longer than YUKSEL_ERROR.
 FN real yuksel_root(quartic p, quartic slope, real a, real b, int negative_at_a) {
     real u = REAL(0.5) * (a + b);
     int step;
@@ -54,8 +54,8 @@ FN int quadratic_between(real a, real b, real c, real low, real high, real* root
     return count;
 }
 
-// Roots of the derivative, a cubic d with derivative e: the first by its bracket, the others as roots of the deflated
-// cubic.
+// Roots of the derivative, a cubic d with derivative e: the first root in its bracket, the others as roots of the
+// deflated cubic.
 FN int yuksel_turns(quartic d, quartic e, real low, real high, real* turns) {
     real knots[4];
     int count, i, negative = quartic_at(d, low) < 0;

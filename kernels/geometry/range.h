@@ -1,5 +1,5 @@
-// Ranges: interval arithmetic, as far as some solids need it: the values that a quantity may have on an interval of a
-// ray.
+// Ranges: the interval arithmetic that some solids need. A range holds the values that a quantity may have on an
+// interval of a ray.
 #ifndef CSGRT_GEOMETRY_RANGE_H
 #define CSGRT_GEOMETRY_RANGE_H
 

@@ -1,10 +1,10 @@
 // Revolve: a sketch turned about an axis, all round or by an angle. Parameters: affine (12); local z is the axis, local
 // x the direction where the turn begins; then REVOLVE_CUT. Words: the sketch; its x is the distance from the axis, its
-// y the height. Planes: the two of the cut, then those of lines across the axis, which come first in the sketch.
-// Surfaces: 0 and 1 the cut, then the surfaces that the sketch's lines and curves sweep.
+// y the height. Planes: the two of the cut, then the planes that lines across the axis sweep; these lines come first in
+// the sketch. Surfaces: 0 and 1 the cut, then the surfaces that the sketch's lines and curves sweep.
 //
 // Each crossing of the surface that the outline sweeps all round (hyperbola.h) turns inside into outside. The two half
-// planes where the turn begins and ends cut the solid out of it.
+// planes where the turn begins and ends cut the solid out of this body.
 #ifndef CSGRT_GEOMETRY_REVOLVE_H
 #define CSGRT_GEOMETRY_REVOLVE_H
 
@@ -27,8 +27,8 @@ FN cut meet_profile(cut k, GLOBAL const real* p, u32 degree, u32 stride, axis_ra
     return k;
 }
 
-// Adds the plane that a line across the axis sweeps. The plane may be another solid's, too: its t is used, unless the
-// ray nearly runs along it.
+// Adds the plane that a line across the axis sweeps. Another solid may share the plane, so the plane's t is used,
+// unless the ray nearly runs along the plane.
 FN cut meet_flat_line(cut k, GLOBAL const real* p, axis_ray a, Geometry g, u32 plane, ray3 r, u32 surface) {
     profile_walk w;
     radial_root root;
@@ -48,7 +48,7 @@ FN u32 revolve_cut_faces(GLOBAL const real* p) { return p[REVOLVE_CUT] == REAL(R
 FN int nothing_between(Geometry g, u32 index) { return (g.words[index] ^ g.words[index + 1]) == 1u; }
 
 // The interval of the ray between the two planes of the cut. A ray that is moved aside of such a plane is on one side
-// of it all the way.
+// of the plane all the way.
 FN span between_faces(Geometry g, u32 index, GLOBAL const real* p, ray3 r, beside b) {
     span s = whole_line();
     u32 i;
@@ -114,8 +114,8 @@ FN vec3 profile_normal(GLOBAL const real* p, u32 degree, u32 stride, axis_ray a,
             profile_point c = profile_at(p, degree, stride, root.at);
             real rho = real_sqrt(real_fma(at.x, at.x, at.y * at.y));
             nearest = off;
-            // The vector across the tangent, times the distance to the axis. On the axis it is along the axis, since
-            // only a curve that runs across the axis has a normal there.
+            // The vector across the tangent, times the distance to the axis. On the axis the vector runs along the
+            // axis, since only a curve that runs across the axis has a normal there.
             n = rho > 0 ? make_vec3(c.dz * at.x, c.dz * at.y, -c.dr * rho) : make_vec3(0, 0, -c.dr);
         }
     }

@@ -1,9 +1,9 @@
-// Segments: every solid's answer, its segments along a ray, in ascending order.
+// Segments: a solid's segments along a ray, in ascending order.
 //
 //        in0      out0         in1      out1
 //   -----|=========|-----------|=========|-----> t        count = 2
 //
-// `surface` numbers the surfaces of a solid; each <solid>.h says which is which.
+// `surface` numbers the surfaces of a solid; each <solid>.h names them.
 #ifndef CSGRT_GEOMETRY_SEGMENTS_H
 #define CSGRT_GEOMETRY_SEGMENTS_H
 

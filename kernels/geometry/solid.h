@@ -1,5 +1,6 @@
-// Solid: the segments of any solid of at most two, and any solid's normal. This file and collect.h know all types. A
-// program holds only the types that its scene has (-DCSGRT_SOLIDS=<bits>): code that is left out costs no registers.
+// Solid: the segments of any type of solid that has at most two, and the normal of any solid. This file and collect.h
+// know all types. A program holds only the types that its scene has (-DCSGRT_SOLIDS=<bits>): code that is left out
+// costs no registers.
 #ifndef CSGRT_GEOMETRY_SOLID_H
 #define CSGRT_GEOMETRY_SOLID_H
 

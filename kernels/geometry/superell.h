@@ -2,18 +2,18 @@
 //
 //   G = (|x|^p + |y|^p)^q + |z|^r - 1 < 0        p = 2 / e, q = e / n, r = 2 / n
 //
-// Along a ray each of |x|, |y|, |z| is linear between the points where x, y or z is 0. There its powers are monotone,
-// so their ranges over an interval are those of its two limits, and with them the ranges of G and of its slope. With p
-// q = r, s = |x|^p + |y|^p and Lagrange's identity the second derivative is
+// Along a ray each of |x|, |y|, |z| is linear between the points where x, y or z is 0. There its powers are monotone.
+// So the ranges of these powers, of G and of its slope over an interval follow from the values at the interval's two
+// limits. With p q = r, s = |x|^p + |y|^p and Lagrange's identity the second derivative is
 //
 //   G'' / r = (r-1) (s^(q-2) (x^(p-1) x' + y^(p-1) y')^2 + z^(r-2) z'^2) + (p-1) s^(q-2) (x y)^(p-2) (x y' - x' y)^2
 //
 // where x y' - x' y is the same all along the ray. If p-1 and r-1 are not of opposite signs (e, n <= 2: the solid is
 // convex; e, n >= 2: a star), G'' has one sign, and G has at most one turning point in the whole part. Else intervals
-// are walked from the front, as wide as one of these is certain: G has no 0; or its slope has no 0, and then the signs
-// of G at both limits tell whether there is a root; or its second derivative has no 0, and then G has at most one
-// turning point. If nothing is certain down to SUPERELL_LEAST of the part (a ray that touches within rounding, or runs
-// within a flat side), or after SUPERELL_STEPS intervals, the signs at the limits decide, too.
+// are walked from the front. Each interval is so small that one of three facts is certain: G has no 0; or its slope has
+// no 0, so the signs of G at the two limits tell whether there is a root; or its second derivative has no 0, so G has
+// at most one turning point. If no fact is certain down to SUPERELL_LEAST of the part (a ray that touches within
+// rounding, or runs within a flat side), or after SUPERELL_STEPS intervals, the signs at the limits decide, too.
 #ifndef CSGRT_GEOMETRY_SUPERELL_H
 #define CSGRT_GEOMETRY_SUPERELL_H
 
@@ -27,11 +27,12 @@
                  1.000001)  // the searched interval is a little larger than the solid, so both its limits are outside
 #define SUPERELL_LEAST BY_PRECISION(0x1p-18, 0x1p-45, 0x1p-90)
 #define SUPERELL_STEPS 500
-#define SUPERELL_NOISE BY_PRECISION(1e-5, 1e-14, 1e-32)  // |G| beyond this is no rounding
+#define SUPERELL_NOISE BY_PRECISION(1e-5, 1e-14, 1e-32)  // a greater |G| is not only rounding
 #define SUPERELL_TURN_STEPS (sizeof(real) == 16 ? 120 : 60)
 #define SUPERELL_ROOT_STEPS (sizeof(real) == 16 ? 240 : 120)
 
-// One local coordinate along the ray: |rate| |u - zero| if it is 0 in the searched interval.
+// One local coordinate along the ray. Its absolute value is |rate| |u - zero| if it is 0 somewhere in the searched
+// interval.
 typedef struct {
     real at, rate, zero;
     u32 has_zero;
@@ -94,7 +95,7 @@ FN superell_point superell_at(superell_ray l, vec3 rate, real u) {
     outer = real_power(s, l.q);
     a.value = outer + (a.z - REAL(1));
     if (x == 0 && y == 0) {
-        // A ray through the axis of z: from here on s^q is the rates' s^q times a distance to the power r.
+        // A ray through the axis of z: from here on s^q is the s^q of the rates times the distance to the power r.
         real away = real_power(real_power(real_abs(rate.x), l.p) + real_power(real_abs(rate.y), l.p), l.q);
         a.slope = product_or_0(rate.x + rate.y < 0 ? -away : away, superell_lower(0, 0, l.r));
     } else {
@@ -109,7 +110,7 @@ FN superell_point superell_at(superell_ray l, vec3 rate, real u) {
 #define SUPERELL_MONOTONE 1  // or without zeros
 #define SUPERELL_BENT 2      // bent to one side: at most one turning point
 
-// The knowledge of G between a and b: SUPERELL_MONOTONE, SUPERELL_BENT, or neither.
+// What is certain of G between a and b: SUPERELL_MONOTONE, SUPERELL_BENT or SUPERELL_UNDECIDED.
 FN int superell_look(superell_ray l, vec3 rate, superell_point a, superell_point b) {
     real low_s = real_min(a.x, b.x) + real_min(a.y, b.y), high_s = real_max(a.x, b.x) + real_max(a.y, b.y);
     real low_power = real_power(low_s, l.q), high_power = real_power(high_s, l.q);
@@ -153,8 +154,8 @@ FN int superell_look(superell_ray l, vec3 rate, superell_point a, superell_point
     return SUPERELL_UNDECIDED;
 }
 
-// The root between a and b, where G changes its sign once: Newton's method, kept within the bracket by bisection, and
-// halving whenever two steps did not halve it.
+// The root between a and b, where G changes its sign once: Newton's method, kept within the bracket, which is bisected
+// whenever two steps did not halve it.
 FN real superell_root(superell_ray l, vec3 rate, superell_point a, superell_point b) {
     real low = a.u, high = b.u, u = REAL(0.5) * (low + high), width = REAL_INFINITY;
     u32 negative = a.value < 0;
@@ -178,8 +179,9 @@ FN real superell_root(superell_ray l, vec3 rate, superell_point a, superell_poin
     return u;
 }
 
-// The point between a and b that decides, where G has one sign at both and bends towards 0: a point where G has the
-// other sign, or its turning point, or any point if the tangents at a and b tell that G does not reach 0.
+// The point that decides whether G has roots between a and b, where G has the same sign at a and b and bends towards 0.
+// The point is one where G has the other sign, or the turning point of G, or any point if the tangents at a and b show
+// that G does not reach 0.
 FN superell_point superell_turn(superell_ray l, vec3 rate, superell_point a, superell_point b) {
     u32 falling = a.slope < 0, negative = a.value < 0;
     superell_point m = a;
@@ -235,7 +237,7 @@ FN crossings superell_part(crossings c, superell_ray l, real low, real high, rea
     return c;
 }
 
-// The part of [low, high] with |at + rate u| <= limit.
+// The part of `s` with |at + rate u| <= limit.
 FN span superell_clip(span s, real at, real rate, real limit) {
     if (rate != 0) {
         real first = (-limit - at) / rate, second = (limit - at) / rate;
@@ -267,8 +269,8 @@ FN crossings superell_cross(GLOBAL const real* p, ray3 r, crossings c) {
     ray.x = superell_axis_of(l.o.x, d.x, s.low, s.high);
     ray.y = superell_axis_of(l.o.y, d.y, s.low, s.high);
     ray.z = superell_axis_of(l.o.z, d.z, s.low, s.high);
-    // A ray through the z axis has x and y 0 at once. If the two zeros were a bit apart, the slope of x where x is 0
-    // alone would be infinite, though G is bent nowhere.
+    // A ray through the z axis has x and y 0 at once. If rounding put the two zeros apart, the slope of x where x alone
+    // is 0 could be infinite, though G does not bend there.
     if (ray.twist == 0 && d.x != 0 && d.y != 0) {
         ray.y.zero = ray.x.zero;
         ray.x.has_zero = ray.y.has_zero = ray.x.has_zero | ray.y.has_zero;
@@ -288,7 +290,7 @@ FN crossings superell_cross(GLOBAL const real* p, ray3 r, crossings c) {
     return c;
 }
 
-// The normal. On a cusp (a coordinate is 0, its exponent below 1) it is the mean of the normals on both sides.
+// The normal. On a cusp (a coordinate is 0, its exponent below 1) the result is the mean of the normals on both sides.
 FN vec3 superell_normal(GLOBAL const real* p, ray3 r, real t) {
     vec3 at = local_point(to_local(p, r), t), n;
     real x = real_abs(at.x), y = real_abs(at.y), z = real_abs(at.z), most;

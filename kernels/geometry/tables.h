@@ -38,7 +38,7 @@ typedef struct {
 // Types of solids with at most one segment on any ray.
 #define ONE_SEGMENT (1u << SOLID_ELL | 1u << SOLID_ARB | 1u << SOLID_HALF | 1u << SOLID_PART)
 
-// The ray for one solid, with the solid's center.
+// The ray that is tested against one solid, with the solid's center.
 FN ray3 ray_at(SolidRecord solid, ray3 r) {
 #ifdef CSGRT_EYE_RELATIVE
     r.center = make_wide3(solid.center[0], solid.center[1], solid.center[2]);

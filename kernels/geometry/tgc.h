@@ -14,7 +14,7 @@
 #include "quartic.h"
 
 // The part of `s` within a round cone. A ray steeper than the cone (a < 0) meets both of its nappes, one root on each,
-// and m changes sign between them: the part with m > 0 is the cone's.
+// and m changes sign between them: only the part with m > 0 belongs to the cone.
 FN segments cone_inside(local_ray l, quadratic f, real m0, real m1, span s) {
     if (f.a < 0) {
         real u = -m0 / m1;
@@ -38,13 +38,13 @@ FN segments cone_inside(local_ray l, quadratic f, real m0, real m1, span s) {
 }
 
 // The distance from an edge, in units of the larger semi-axis, below which a ray counts as near. Where a cone ends in
-// an edge, or nearly so, such a ray is taken from its closest approach to the edge. There its coefficients vanish with
-// the quartic, so near the edge the quartic is as exact relative to its own size as elsewhere. From the usual origin
-// only rounding is left there.
+// an edge, or nearly so, the origin of a near ray is moved to its closest approach to the edge. From this origin the
+// coefficients vanish with the quartic, so near the edge the quartic has as small a relative error as elsewhere. From
+// the usual origin only rounding would be left.
 #define EDGE_REACH REAL(0.125)
 
-// The closest approach of the ray to the line where a semi-axis m0 + m1 u, and the coordinate o + d u along it, are 0:
-// nearest at u.
+// The closest approach of the ray, at u, to an edge: the line where a semi-axis m0 + m1 u and the coordinate o + d u
+// along this axis are 0.
 typedef struct {
     real u, distance2;
 } edge_pass;
@@ -71,8 +71,8 @@ NOINLINE_FN real edge_shift(GLOBAL const real* p, vec3 o, vec3 d, span s) {
     return a.distance2 <= b.distance2 ? a.u : b.u;
 }
 
-// The part of `s` with a positive semi-axis m0 + m1 u. The planes of base and top are computed in another way: by
-// rounding a ray along an edge could meet the mirrored body beyond it.
+// The part of `s` with a positive semi-axis m0 + m1 u. The planes of base and top are computed in another way, so a ray
+// along an edge could, by rounding, meet the mirrored body beyond the edge.
 FN span on_this_side(span s, real m0, real m1) {
     const real u = -m0 / m1;
     if (m1 > 0) s.low = real_max(s.low, u);

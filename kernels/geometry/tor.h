@@ -1,27 +1,27 @@
 // Torus: local circle of radius 1 in z = 0. Parameters: affine (12), ratio (tube radius / circle radius). Planes: none,
-// or those that cut a bend out of it. Surface 0; 1 + i is plane i.
+// or the planes that cut a bend out of the torus. Surface 0; 1 + i is plane i.
 //
 //   (|p|^2 - 1 - ratio^2)^2 + 4 (z^2 - ratio^2) < 0
 //
 // The terms of this form stay small near a thin tube. The quartic along the ray is solved on an interval (torus.h)
 // outside which it is positive. Each root is then polished on (rho - 1)^2 + z^2 - ratio^2, evaluated at the point
-// itself: this form has none of the expanded form's cancellation.
+// itself, which avoids the cancellation of the expanded form.
 //
 // Where the hole is nearly closed, the surface comes near the centre, and there only rounding is left of these terms.
-// With gap = 1 - ratio^2 the same two functions are
+// With gap = 1 - ratio^2 the same two functions, the quartic and the form for polishing, are
 //
 //   (|p|^2 + gap)^2 - 4 rho^2        |p|^2 + gap - 2 rho
 //
 // Their terms vanish with f at the pinch of a horn torus. The origin is the ray's closest approach to this very point,
-// so the coefficients along the ray vanish likewise. So near the pinch the quartic is as exact relative to its own size
-// as elsewhere.
+// so the coefficients along the ray vanish, too. Near the pinch the quartic therefore has as small a relative error as
+// elsewhere.
 #ifndef CSGRT_GEOMETRY_TOR_H
 #define CSGRT_GEOMETRY_TOR_H
 
 #include "quartic.h"
 #include "torus.h"
 
-// The limits of the pinch: a ray that passes the centre within PINCH_REACH, of a torus whose hole is no wider than 1 -
+// The limits of the pinch: a ray passes the centre within PINCH_REACH, and the hole of the torus has a radius below 1 -
 // PINCH_RATIO. Other rays meet the surface where the usual terms of the quartic cancel by a digit or two at most.
 #define PINCH_REACH REAL(0.2)
 #define PINCH_RATIO REAL(0.75)

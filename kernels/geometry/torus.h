@@ -35,7 +35,7 @@ FN tor_piece tor_piece_of(u32 method, GLOBAL const parameter* p, ray3 r) {
     s.length = real_sqrt(dot3(s.l.d, s.l.d));
     s.d = scale(s.l.d, REAL(1) / s.length);
     middle = quartic_middle(method, s.l.o, s.d);
-    reach = real_sqrt(outer * outer - (dot3(s.l.o, s.l.o) - middle * middle)) * TOR_MARGIN;  // a miss makes it NaN
+    reach = real_sqrt(outer * outer - (dot3(s.l.o, s.l.o) - middle * middle)) * TOR_MARGIN;  // NaN if the ray misses
     z0 = (-tube - s.l.o.z) / s.d.z;
     z1 = (tube - s.l.o.z) / s.d.z;
     crosses = s.d.z != 0;
@@ -43,7 +43,7 @@ FN tor_piece tor_piece_of(u32 method, GLOBAL const parameter* p, ray3 r) {
     last = real_max(z0, z1);
     s.low = middle - reach;
     s.high = middle + reach;
-    // The comparisons keep NaN: the ray misses the sphere, whatever it meets of the slab.
+    // The comparisons keep a NaN: a ray that misses the sphere misses the torus, whether or not it meets the slab.
     s.low = crosses && first > s.low ? first : s.low;
     s.high = crosses && last < s.high ? last : s.high;
     outside = !(s.low < s.high) || (!crosses && real_abs(s.l.o.z) > ratio);

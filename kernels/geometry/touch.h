@@ -1,7 +1,7 @@
-// Touch: a ray that touches a solid all along a segment, as far as rounding lets csgrt tell. It runs in a face or along
-// a wall, or comes no deeper than rounding. Both boundaries of the segment are marked with the sides to which the ray
-// would miss the solid (MISSED_...). The code is here and not in each solid, which needs it seldom: inlined rare code
-// costs a GPU's registers and a processor's vectors.
+// Touch: a ray touches a solid all along a segment, as far as rounding lets csgrt tell. The ray runs in a face or along
+// a wall, or its depth in the solid is no more than rounding. Both boundaries of the segment are marked with the sides
+// to which the ray would miss the solid (MISSED_...). The code is here and not in each solid, because it is seldom
+// needed: inlined rare code takes a GPU's registers and keeps a processor from using vectors.
 #ifndef CSGRT_GEOMETRY_TOUCH_H
 #define CSGRT_GEOMETRY_TOUCH_H
 
@@ -9,7 +9,7 @@
 #include "plane.h"
 
 // The distances by which rounding of the ray's and of the solid's numbers may move each coordinate of a point of the
-// local ray, and of a surface of about size 1. Across a thin solid it is far more than along it.
+// local ray, and of a surface of about size 1. Across a thin solid these distances are far greater than along it.
 FN vec3 local_roundings(GLOBAL const parameter* p, ray3 r) {
     const vec3 o = narrow(r.o), c = narrow(affine_center(p, r));
     const real x = real_abs(o.x) + real_abs(c.x), y = real_abs(o.y) + real_abs(c.y), z = real_abs(o.z) + real_abs(c.z);
@@ -37,7 +37,7 @@ FN vec3 left_of_ray(ray3 r) {
 }
 
 // The sides on which a ray misses a face that it touches. `n`: the face's outward normal. The two faces of a plane have
-// opposite sides, also where the plane holds one of the directions.
+// opposite sides, even if the plane contains one of the directions.
 FN u32 missed_sides(vec3 n, ray3 r) {
     const real above = dot3(n, above_faces()), left = dot3(n, left_of_ray(r));
     if (above >= 0) return MISSED_ABOVE | (left >= 0 ? MISSED_LEFT : MISSED_RIGHT);
@@ -50,7 +50,7 @@ FN u32 missed_of_plane(PlaneRecord plane, u32 flipped, ray3 r) {
     return flipped ? MISSED & ~missed : missed;
 }
 
-// The sides beyond those planes of a solid in which the ray runs.
+// The sides that lie beyond the planes of a solid in which the ray runs.
 FN u32 missed_of_planes(Geometry g, u32 first, u32 count, ray3 r) {
     u32 i, missed = 0;
     for (i = first; i < first + count; ++i) {
@@ -79,8 +79,7 @@ FN real depth_in_side(GLOBAL const real* p, vec3 at) {
     return real_fma(p[13], at.z, p[12]) - real_sqrt(real_fma(at.x, at.x, at.y * at.y));
 }
 
-// Marks a segment along the side of a cone. The ray is within it from base to top, on whichever side of the wall
-// rounding has put the ray.
+// Marks a segment along the side of a cone. The ray is within the cone from base to top, whatever rounding does.
 FN segments mark_side(GLOBAL const real* p, ray3 r, span ends, segments h) {
     const local_ray l = to_local(p, r);
     const real most = local_rounding(p, r);
@@ -101,7 +100,7 @@ FN u32 missed_of_tor(GLOBAL const real* p, ray3 r, real in, real out) {
     return missed_sides(affine_normal(p, make_vec3(at.x * radial / rho, at.y * radial / rho, at.z)), r);
 }
 
-// The segments of a solid that the ray may only touch, marked if it does.
+// The segments of a solid that the ray may only touch, marked if the ray does so.
 RARE_FN segments mark_touched(Geometry g, SolidRecord solid, ray3 r, segments h) {
     GLOBAL const real* p = g.reals + solid.first_real;
     if (solid.type == SOLID_ELL) h = mark_ell(p, r, h);

@@ -1,8 +1,8 @@
 // Triangle: a ray and the triangles of one mesh, watertight. The boundary of a volume is crossed an even number of
 // times, whatever the rounding, through edges and vertices too.
 //
-// The axes are turned so that the ray runs mostly along z, and sheared so that it is upright (Woop, Benthin, Wald
-// 2013). A vertex is transformed by the same arithmetic for all its triangles:
+// The axes are turned so that the ray runs mostly along z, and sheared so that it runs exactly along z (Woop, Benthin,
+// Wald 2013). A vertex is transformed by the same arithmetic for all its triangles:
 //
 //        y |    c                 The ray is the point 0. It meets a triangle whose three edges all have it on the
 //          |   / \                same side: sign(a x b) = sign(b x c) = sign(c x a).
@@ -36,7 +36,7 @@ typedef struct {
     real slope_y;
 } upright_ray;
 
-// The coordinates with the axis last, the others before it in their cyclic order.
+// The coordinates in cyclic order, with the coordinate of `axis` last.
 FN vec3 turned(vec3 v, int axis) {
     return axis == 2 ? v : axis == 1 ? make_vec3(v.z, v.x, v.y) : make_vec3(v.y, v.z, v.x);
 }
@@ -53,11 +53,11 @@ FN upright_ray make_upright(local_ray l) {
     return u;
 }
 
-// The coordinate, or 0 if it is so small that it is rounding: products of two such would leave the range in which they
-// are exact.
+// The coordinate, or 0 if it is so small that it may be rounding: the products of two such coordinates would not be
+// exact.
 FN real flushed(real x) { return real_abs(x) < REAL(0x1p-50) ? REAL(0) : x; }
 
-// A point seen along the ray: (x, y) is 0 on it, z measures along its main axis.
+// A point seen along the ray: (x, y) is 0 on the ray, and z measures along the ray's main axis.
 FN vec3 seen_along(upright_ray u, vec3 point) {
     const vec3 p = turned(subtract(point, u.ray.o), u.axis);
     return make_vec3(flushed(real_fma(-u.slope_x, p.z, p.x)), flushed(real_fma(-u.slope_y, p.z, p.y)), p.z);
@@ -66,7 +66,7 @@ FN vec3 seen_along(upright_ray u, vec3 point) {
 FN vec3 upright_vertex(upright_ray u, GLOBAL const real* v) { return seen_along(u, make_vec3(v[0], v[1], v[2])); }
 
 // The side of the edge from a to b on which the ray passes: 1, -1, or 0 for an edge that has no length. `product` is a
-// x b. Where it is 0, its rate of change as 0 moves to (e, e^2) decides.
+// x b. Where the product is 0, its rate of change as 0 moves to (e, e^2) decides.
 FN int side_of_edge(vec3 a, vec3 b, real product) {
     real rate = product != 0 ? product : a.y != b.y ? a.y - b.y : b.x - a.x;
     return rate > 0 ? 1 : rate < 0 ? -1 : 0;
@@ -77,11 +77,11 @@ typedef struct {
     int hit;
     real t;         // along the ray
     int clockwise;  // seen along the ray
-    int edge_on;    // the products of its edges' points are all nearly 0: it is seen edge-on, or very small
-    int edge;       // the product of one edge is
+    int edge_on;    // the products of all edges' points are nearly 0: the triangle is seen edge-on, or very small
+    int edge;       // the product of some edge's points is nearly 0
 } triangle_hit;
 
-// Intersects the ray and the triangle. `edge_on`: products below it count as nearly 0.
+// Intersects the ray and the triangle. `edge_on`: products below this limit count as nearly 0.
 FN triangle_hit meet_triangle(upright_ray u, real edge_on, GLOBAL const real* vertices, GLOBAL const u32* corners) {
     triangle_hit h;
     vec3 a = upright_vertex(u, vertices + 3 * (size_t)corners[0]);
@@ -98,7 +98,7 @@ FN triangle_hit meet_triangle(upright_ray u, real edge_on, GLOBAL const real* ve
     h.t = 0;
     h.clockwise = (side > 0) == (turned(u.ray.d, u.axis).z > 0);
     if (!h.hit) return h;
-    // No weight has the other sign, and not all are 0, because then the triangle has no area and no inside.
+    // No two weights have opposite signs, and not all are 0: a triangle without area has no hit.
     z = real_fma(wc, c.z, real_fma(wb, b.z, wa * a.z)) / (wa + wb + wc);
     z = real_max(real_min(a.z, real_min(b.z, c.z)), real_min(real_max(a.z, real_max(b.z, c.z)), z));
     h.t = u.ray.shift + z / turned(u.ray.d, u.axis).z;
@@ -118,7 +118,7 @@ FN vec3 normal_of_line(upright_ray u, vec3 direction) {
     return turned(n, u.axis == 2 ? 2 : 1 - u.axis);
 }
 
-// The plane of the triangle, if the ray runs in it.
+// Adds the plane of the triangle if the ray runs in this plane.
 RARE_FN beside add_triangle(beside b, upright_ray u, GLOBAL const real* vertices, GLOBAL const u32* corners,
                             GLOBAL const real* place, ray3 r) {
     const vec3 v0 = upright_vertex(u, vertices + 3 * (size_t)corners[0]);
@@ -130,7 +130,7 @@ RARE_FN beside add_triangle(beside b, upright_ray u, GLOBAL const real* vertices
     return b;
 }
 
-// The vector across the triangle, in the mesh's own space.
+// A vector normal to the triangle, in the mesh's own space.
 FN vec3 triangle_normal(GLOBAL const real* vertices, GLOBAL const u32* corners) {
     GLOBAL const real* a = vertices + 3 * (size_t)corners[0];
     GLOBAL const real* b = vertices + 3 * (size_t)corners[1];

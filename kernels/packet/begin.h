@@ -9,7 +9,8 @@
 //
 // Why the bits are the same. The source is the same, so each lane goes through the same operations in the same order as
 // one ray does. IEEE 754 rounds an operation in each lane of a vector as it rounds it on scalars. The compiler
-// contracts nothing. A lane may compute numbers that its ray has no use for, and NaNs; no lane reads another's.
+// contracts nothing. A lane may compute numbers that its ray has no use for, and NaNs; no lane reads another lane's
+// numbers.
 //
 // Rules of a header that is compiled twice:
 // - The types of shared/base.h say what a value belongs to. real, wide, single, tag and lane masks belong to a ray;

@@ -1,7 +1,7 @@
-// Closed form: a packet's functions in place of one ray's for solids that need more than closed forms. Where they need
-// more, a ray is UNDECIDED, and goes alone.
+// Closed form: intersects a packet's rays with solids that may need more than a closed form, such as a quartic. A ray
+// that needs more is UNDECIDED, and is intersected alone.
 //
-// Compiled for packets alone, between packet/begin.h and packet/end.h.
+// The file is compiled for packets alone, between packet/begin.h and packet/end.h.
 #ifndef CSGRT_PACKET_CLOSED_FORM_H
 #define CSGRT_PACKET_CLOSED_FORM_H
 
@@ -16,7 +16,7 @@ FN segments undecided_where(lane_mask mask, segments h) {
     return h;
 }
 
-// The part of a ray inside a quadratic, as in polynomial.h, where a > 0.
+// The part of a ray inside a quadratic, as in polynomial.h where a > 0. Other rays are undecided.
 FN segments quadratic_inside(real a, real b, real c, real discriminant, real shift, span s, u32 surface) {
     return undecided_where(s.low < s.high && !(a > 0), between_roots(a, b, c, discriminant, shift, s, surface));
 }

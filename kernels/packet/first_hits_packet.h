@@ -1,4 +1,4 @@
-// First hits of a packet a work-item (first_hits.cl), as processors draw them: two rows of four pixels.
+// First hits as processors draw them: one packet a work-item (first_hits.cl), two rows of four pixels.
 #ifndef CSGRT_PACKET_FIRST_HITS_PACKET_H
 #define CSGRT_PACKET_FIRST_HITS_PACKET_H
 

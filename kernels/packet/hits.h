@@ -8,8 +8,8 @@
 
 #include "pending_solids.h"
 
-// Has the active rays that hit the leaves of a subtree add the leaves' solids, or hold them pending. Returns the
-// overflow mask.
+// Adds the solids of a subtree's leaves to the active rays that hit the leaves, or keeps these solids pending. Returns
+// the overflow mask.
 FN u32 take_subtree(packet* p, scene_tables s, u32 root, u32 active_mask, pending_solids* pending) {
     bvh_cursor cursor = bvh_below(s.nodes, root);
     u32 overflow_mask = 0, hit_mask, leaf;

@@ -1,4 +1,4 @@
-// Listed: packets of a list, eight rays in a row, each with its range.
+// Listed: a packet of a list is eight consecutive rays, each with its range.
 #ifndef CSGRT_PACKET_LISTED_H
 #define CSGRT_PACKET_LISTED_H
 

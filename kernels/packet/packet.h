@@ -1,6 +1,6 @@
-// Packet: the closed-form solids once more, for eight rays side by side, on processors, whose instructions work on
-// vectors. A packet is two rows of four pixels of a tile, which meet fewer boxes and solids than one row of eight.
-// begin.h says how the source of one ray is compiled for a packet, and why the bits are the same.
+// Packet: compiles the closed-form solids once more, for eight rays side by side. Packets are for processors, whose
+// instructions work on vectors. A packet is two rows of four pixels of a tile, which meet fewer boxes and solids than
+// one row of eight. begin.h says how the source of one ray is compiled for a packet, and why the bits are the same.
 #ifndef CSGRT_PACKET_PACKET_H
 #define CSGRT_PACKET_PACKET_H
 
@@ -12,8 +12,8 @@
 
 #define PACKET 8u
 
-// Prefetch: the processor loads a line of memory ahead, in scenes larger than its caches. It does not wait, and any
-// address is harmless.
+// Prefetch: the processor loads a line of memory ahead, in scenes larger than its caches. The processor does not wait,
+// and any address is harmless.
 #ifdef CSGRT_PREFETCH
 #define prefetch_line(place) __builtin_prefetch((const void*)(size_t)(place))
 #else
@@ -53,15 +53,16 @@ FN int no_lane(long8 x) { return !any(x); }
 // Do packets know this type of solid?
 FN int takes_packets(SolidRecord solid) { return CLOSED_FORM_SOLIDS >> solid.type & 1u; }
 
-// The segments of such a solid: for each ray one, none, or UNDECIDED, also for a ray that may only touch it.
+// The segments of a closed-form solid: for each ray one, none, or UNDECIDED. A ray that may only touch the solid is
+// UNDECIDED.
 FN packet_segments packet_intersect(Geometry g, SolidRecord solid, packet_ray3 r) {
     packet_segments h = closed_form_intersect(g, solid, r);
     h.count = h.touched ? (ulong8)UNDECIDED : h.count;
     return h;
 }
 
-// Vectors along the outward normals where the rays hit one surface of such a solid at t. Returns 0 if the surface is a
-// plane.
+// Vectors along the outward normals where the rays hit one surface of a closed-form solid at t. Returns 0 if the
+// surface is a plane.
 FN int packet_normals(Geometry g, SolidRecord solid, packet_ray3 r, double8 t, u32 surface, packet_vec3* n) {
     surface &= ~MISSED;
     if (surface != 0 || solid.type == SOLID_ARB || solid.type == SOLID_HALF) return 0;
@@ -77,7 +78,7 @@ FN u32 bits_of(long8 x) { return bits_of(convert_int8(x)); }
 FN int8 of_bits(u32 bits) { return ((int8)((int)bits) & (int8)(1, 2, 4, 8, 16, 32, 64, 128)) != 0; }
 
 // Numbers of rays. A work-item has eight numbers (or positions) in a row, but the rays of a packet are two rows of four
-// pixels of the tile. first_of_packet: the first ray's number. ray_of_packet: the distance of ray k's number from it.
+// pixels of the tile. first_of_packet: the first ray's number. ray_of_packet: ray k's number minus the first ray's.
 #define PACKET_ROW 4u
 FN u32 first_of_packet(u32 id) {
     const u32 within = id % (TILE * TILE) / PACKET;
@@ -122,7 +123,7 @@ FN u32 next_leaf(packet_slab_ray s, __global const BvhNode* nodes, bvh_cursor* c
     return leaf;
 }
 
-// The rays of a packet, each alone.
+// The rays of a packet in arrays, from which one ray can be read.
 typedef struct {
     real ox[PACKET], oy[PACKET], oz[PACKET], dx[PACKET], dy[PACKET], dz[PACKET];
 } packet_lanes;

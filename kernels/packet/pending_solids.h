@@ -1,4 +1,4 @@
-// Pending solids: a packet's rays hit their boxes, but have not added their segments yet.
+// Pending solids: solids whose boxes a packet's rays hit, and whose segments are not added yet.
 //
 // In a scene that is larger than the processor's caches, a solid's numbers come from memory in three steps: its record,
 // the data that the record points to, and the data that these point to. So several solids are kept pending while their
@@ -12,7 +12,7 @@
 #ifdef CSGRT_PREFETCH
 
 #define ENOUGH_PENDING 8u  // solids whose prefetches hide each other's time
-#define MOST_PENDING 24u   // and the solids of one more leaf
+#define MOST_PENDING 24u   // space for these, and for the solids of one more leaf
 
 typedef struct {
     u32 solids[MOST_PENDING], rays[MOST_PENDING];
@@ -36,7 +36,7 @@ FN void prefetch_solid(scene_tables s, u32 index) {
     prefetch_line(s.g.words + solid->first_plane);
 }
 
-// Prefetches the data that these point to in turn.
+// Prefetches the data that the solid's starts and planes point to.
 FN void prefetch_parts(scene_tables s, u32 index) {
     GLOBAL const SolidRecord* const solid = s.g.solids + index;
     if (solid->start_count) prefetch_line(s.trees + s.starts[solid->first_start].first_word);
@@ -51,7 +51,7 @@ FN void prefetch_parts(scene_tables s, u32 index) {
 FN void start_pending(pending_solids* pending) { pending->count = 0; }
 FN int are_enough(const pending_solids* pending) { return pending->count >= ENOUGH_PENDING; }
 
-// Has the rays add the pending solids. Returns the overflow mask.
+// Adds the pending solids to their rays' sweeps. Returns the overflow mask.
 FN u32 take_pending(packet* p, scene_tables s, pending_solids* pending) {
     u32 i, overflow_mask = 0;
     for (i = 0; i < pending->count && i < 2; ++i) prefetch_solid(s, pending->solids[i]);
@@ -64,8 +64,8 @@ FN u32 take_pending(packet* p, scene_tables s, pending_solids* pending) {
     return overflow_mask;
 }
 
-// Makes a solid pending for the active rays. If there is no room, the rays first add the others. Returns the overflow
-// mask.
+// Makes a solid pending for the active rays. If the list is full, the other solids are added first. Returns the
+// overflow mask.
 FN u32 take_or_defer(packet* p, scene_tables s, u32 index, u32 active_mask, pending_solids* pending) {
     const u32 overflow_mask = pending->count == MOST_PENDING ? take_pending(p, s, pending) : 0;
     prefetch_line(s.g.solids + index);

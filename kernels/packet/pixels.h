@@ -1,12 +1,13 @@
-// Pixels: from the first hits of a packet's rays to the channels of their pixels, as shading/pixel.h does for one ray.
+// Pixels: computes the channels of a packet's pixels from the first hits of its rays, as shading/pixel.h does for one
+// ray.
 #ifndef CSGRT_PACKET_PIXELS_H
 #define CSGRT_PACKET_PIXELS_H
 
 #include "hits.h"
 #include "../shading/pixel.h"
 
-// Vectors along the outward normals at the first hits of the rays of the hit mask. The other rays have the normal of
-// the first of them.
+// Vectors along the outward normals at the first hits of the rays of the hit mask. Each other ray gets the normal of
+// the first ray of the mask.
 FN packet_vec3 seen_normals(const packet* p, Geometry g, u32 hit_mask, double8 t) {
     real x[PACKET], y[PACKET], z[PACKET];
     packet_vec3 n;
@@ -78,8 +79,8 @@ FN void put_words(__global float* channel, u32 line, u32 active_mask, u32 hit_ma
                 hit_mask >> k & 1u ? words[k] : background;
 }
 
-// The sights of the rays of the hit mask, in which at least one bit is set. The other rays have the sight of the first
-// of them.
+// The sights of the rays of the hit mask, in which at least one bit is set. Each other ray gets the sight of the first
+// ray of the mask.
 typedef struct {
     packet_sight sight;
     u32 region[PACKET], solid[PACKET];  // number + 1; 0: none

@@ -10,7 +10,7 @@
 #include "packet.h"
 
 // The meaning of a ray's parameter t: claims up to `after` are not seen, boundaries within `tolerance` are one event,
-// and t is at unit x t - offset in the list of nodes.
+// and the list of nodes has the distance unit x t - offset for t.
 typedef struct {
     real after, tolerance;
     wide unit, per_unit, offset;  // per_unit: 1 / unit

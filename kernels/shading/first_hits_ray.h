@@ -1,4 +1,4 @@
-// First hits of one ray a work-item (first_hits.cl), as GPUs draw them.
+// First hits as GPUs draw them: one ray a work-item (first_hits.cl).
 #ifndef CSGRT_SHADING_FIRST_HITS_RAY_H
 #define CSGRT_SHADING_FIRST_HITS_RAY_H
 
@@ -10,8 +10,8 @@
 #define FIRST_OF_ITEM(id) (id)
 #define RAY_OF_ITEM(k) (k)
 
-// Draws the pixel at `at`, whose channels begin at `picture`. Returns the overflow mask, of one ray: 1 if it has more
-// segments than there is room for; then nothing is drawn. *hit_mask: 1 if the ray sees anything.
+// Draws the pixel at `at`, whose channels begin at `picture`. Returns the overflow mask: 1 if the ray has more segments
+// at a time than a sweep holds; then nothing is drawn. *hit_mask: 1 if the ray sees anything.
 FN u32 draw(__global const Frame* f, scene_tables s, appearance_tables a, __global const TileNode* list,
             pixel_position at, __global float* picture, u32* hit_mask) {
     const world_ray from_eye = camera_ray(f, at);

@@ -1,4 +1,4 @@
-// Pixel: from the hit of a ray to the channels of its pixel.
+// Pixel: computes the channels of a pixel from the hit of its ray.
 #ifndef CSGRT_SHADING_PIXEL_H
 #define CSGRT_SHADING_PIXEL_H
 
@@ -6,7 +6,7 @@
 #include "../geometry/solid.h"
 #include "plastic.h"
 
-// The regions' appearance.
+// The tables of the regions' appearance.
 typedef struct {
     GLOBAL const MaterialRecord* materials;  // one a region
     GLOBAL const LightRecord* lights;
@@ -52,7 +52,7 @@ FN Pixel hit_pixel(sight s, ray3 r) {
     return p;
 }
 
-// The values of a pixel. The ray comes upon region `region` at the boundary `seen`. If the region begins where another
+// The values of a pixel. The ray meets the region `region` at the boundary `seen`. If the region begins where another
 // solid ends (`from_within`), that solid's surface is seen from within: the normal is flipped. Only here is a normal
 // computed: one a ray. If a plane of the frame cuts the region open, the plane is seen, and no solid's surface.
 FN Pixel seen_pixel(GLOBAL const Frame* f, GLOBAL const LightRecord* lights, MaterialRecord m, Geometry g, ray3 r,
@@ -74,7 +74,7 @@ FN Pixel seen_pixel(GLOBAL const Frame* f, GLOBAL const LightRecord* lights, Mat
     return p;
 }
 
-// A display's byte for an amount of light; 0 if it is not a number.
+// A display's byte for an amount of light; 0 if `light` is a NaN.
 FN u32 byte_of_light(GLOBAL const DisplayBytes* display, float light) {
     u32 byte, part;
     if (!(light > 0)) return 0;

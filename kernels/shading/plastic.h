@@ -1,10 +1,11 @@
-// BRL-CAD's plastic at a first hit: ambient light from the eye, diffuse and specular light from each light, no shadows.
+// Plastic: BRL-CAD's shader of this name at a first hit: ambient light from the eye, diffuse and specular light from
+// each light, no shadows.
 //
 //   colour * (ambient cos(n, eye))
 //   + sum over lights: colour * light * diffuse cos(n, l) + light * specular cos(r, eye)^shine
 //
 // A light that is infinitely far away comes from one direction; a light with a beam lights the points in its cone. A
-// surface that shines itself adds colour * glow (SHAPED_LIGHTS).
+// surface that glows adds colour * glow (SHAPED_LIGHTS).
 //
 // The power is computed by squaring: multiplications only, so every device gives the same bits.
 #ifndef CSGRT_SHADING_PLASTIC_H
@@ -80,7 +81,7 @@ typedef struct {
     rgb color;
 } sight;
 
-// Shades a hit. If the ray starts inside (t < t_min), the hit is the eye itself, seen face on.
+// Shades a hit. If the ray starts inside (t < t_min), the hit is moved to t_min, and its normal points to the eye.
 FN sight shade_plastic(GLOBAL const Frame* f, GLOBAL const LightRecord* lights, finish m, ray3 r, real t, vec3 n,
                        real t_min) {
     const lane_mask inside = t < t_min;

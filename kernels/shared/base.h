@@ -2,7 +2,7 @@
 //
 // Everything under kernels/ is written in the subset of the two: plain structs of scalars, arguments by value,
 // fixed-width integers. Nothing here may round differently on two devices. So there is no contraction (the pragma here,
-// -ffp-contract=off on the host), fma stands only where it is written, and the only operations are + - * / sqrt fma
+// -ffp-contract=off on the host), and the compiler makes no fma of its own. The only operations are + - * / sqrt fma
 // floor and scaling by powers of 2, which IEEE 754 fixes to the bit. Transcendental functions are not bit-equal between
 // devices and stay out. Never put two calls with side effects into one argument list: compilers evaluate them in
 // different orders.
@@ -40,22 +40,23 @@ typedef uint u32;
 #else
 #define FN static
 #endif
-// A function whose call takes longer than its work.
+// A function that is always inlined: its call would take longer than its work.
 #ifdef CSGRT_NO_INLINE  // for a simulator that does not know all instructions that inlining makes
 #define INLINE_FN FN
 #else
 #define INLINE_FN FN inline __attribute__((always_inline))
 #endif
-// Rare code within hot code. On a processor it is a call. On a GPU it is inlined, because a call takes registers from
-// all code around it (measured: docs/experiments.md).
+// A function for rare work within hot code. A processor calls the function. On a GPU it is inlined, because a call
+// takes registers from all code around it (measured: docs/experiments.md).
 #if defined(CSGRT_PACKETS) || defined(CSGRT_NO_INLINE)
 #define RARE_FN NOINLINE_FN
 #else
 #define RARE_FN FN
 #endif
-// Large rare code, which would take a GPU's registers from all other code if it were inlined.
+// A function for large and rare work. Inlined, it would take a GPU's registers from all other code.
 #define NOINLINE_FN FN __attribute__((noinline))
-// A function that inlines all functions that it calls, where this pays. A compiler for a device does so in any case.
+// A function into which all functions that it calls are inlined, where this pays. A device's compiler inlines in any
+// case.
 #define WHOLE_FN FN
 #define REAL_INFINITY ((real)INFINITY)
 FN real real_sqrt(real x) { return sqrt(x); }
@@ -102,8 +103,8 @@ FN single to_single(real x) { return (float)x; }
 #define BY_PRECISION(single, twofold, quadruple) \
     (sizeof(parameter) == 4 ? REAL(single) : sizeof(parameter) == 8 ? REAL(twofold) : REAL(quadruple))
 
-// The relative error of a product of two numbers of a point, a direction or a surface: some roundings of each. It is
-// the same in 113 bits as in double, since the numbers come in double.
+// The relative error of a product of two numbers of a point, a direction or a surface: a few roundings of each. The
+// error is the same in 113 bits as in double, since the numbers come in double.
 #define ROUNDING BY_PRECISION(0x1p-21, 0x1p-50, 0x1p-50)
 
 // The number of the lowest bit that is set; bits > 0.

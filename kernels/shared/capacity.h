@@ -7,13 +7,15 @@
 
 #include "layout.h"
 
-// Returns how many candidates `places`, the sums over the rays' counts, has; 0 if there is no memory for all of them.
+// Returns the number of the batch's candidates; 0 if the buffers do not hold all of them. `places`: the sums over the
+// rays' counts.
 FN u32 candidates_of(GLOBAL const Frame* f, GLOBAL const CandidateCount* places) {
     const u32 count = places[f->ray_count].candidates;
     return count <= f->candidate_capacity ? count : 0;
 }
 
-// Is there memory for all segments that `offsets`, the sums over the rays' counts, has, and for their partitions' bits?
+// Do the buffers hold all segments of the batch, and the bits of their partitions? `offsets`: the sums over the rays'
+// counts.
 FN int segments_fit(GLOBAL const Frame* f, GLOBAL const RayCount* offsets) {
     const RayCount total = offsets[f->ray_count];
     return total.segments <= f->segment_capacity && total.words <= f->word_capacity;
@@ -23,12 +25,12 @@ FN u32 segments_of(GLOBAL const Frame* f, GLOBAL const RayCount* offsets) {
 }
 
 // Deep rays have more segments than this number. A deep ray's boundaries are sorted by merging. Its partitions are
-// evaluated one after the other, by what changes from one to the next (3_deep_rays.cl). On processors this pays from 40
-// segments on. But a GPU runs a batch with a deep ray again, and havoc's rays have up to 70 segments.
+// evaluated one after the other, from the changes between neighbours (3_deep_rays.cl). On processors this pays from 40
+// segments on. But a GPU runs a batch with a deep ray again, and rays of the model havoc have up to 70 segments.
 #ifndef DEEP_SEGMENTS
 #define DEEP_SEGMENTS 96u
 #endif
-// Words of bit arrays that are counted to show that there is a deep ray: no buffer holds as many.
+// A count of words that no buffer holds. It shows the host that the batch has a deep ray.
 #define DEEP_WORDS 0x80000000u
 
 #endif

@@ -1,6 +1,5 @@
-// Layout: every record that crosses the bus, every opcode and every limit that host and device share stand in this file
-// alone. Sizes and offsets are asserted on the host (src/kernel_host/kernels.hpp) and reported by a probe kernel from
-// the device.
+// Layout: the records, opcodes and limits that host and device share. They are defined in this file alone. The host
+// asserts their sizes and offsets (src/kernel_host/kernels.hpp), and a probe kernel reports the device's.
 #ifndef CSGRT_SHARED_LAYOUT_H
 #define CSGRT_SHARED_LAYOUT_H
 
@@ -29,7 +28,7 @@
 #define SOLID_REVOLVE 15
 #define SOLID_CROSSED_ETO 16  // an eto whose ellipse crosses the axis
 #define SOLID_TYPES 17
-// Types with flat faces. A ray that may run in such a face is moved a step aside of it (geometry/beside.h).
+// Types with flat faces. A ray that may run in such a face is moved a little to its side (geometry/beside.h).
 #define FLAT_FACED (1u << SOLID_EXTRUDE | 1u << SOLID_REVOLVE | 1u << SOLID_MESH | 1u << SOLID_PLATE)
 
 // Cuts of a revolve.
@@ -53,7 +52,7 @@ typedef struct {
     u32 first_start, start_count;  // into starts
     u32 first_leaf, leaf_count;    // into trees: the solid's leaves in terms of more than SCANNED_WORDS, ascending
     u32 begins;                    // BEGINS_x: where a term may begin to be true
-    u32 alone;                     // the claim where the solid alone covers: as PartitionNode.owner, or ALONE_UNKNOWN
+    u32 alone;                     // the claim where no other solid covers: as PartitionNode.owner, or ALONE_UNKNOWN
     SOLID_CENTER
 } SolidRecord;
 
@@ -88,14 +87,14 @@ typedef u32 PlaneRef;
 #define TREE_SHIFT 29
 #define TREE_MASK 0x1fffffffu
 
-// The depth of the stack. The walk of a large term pushes only on the way into a left child, and the scene compiler
-// puts the child that needs the deeper stack second. So a tree of n leaves needs at most log2(n) <= 29 entries (Sethi
-// and Ullman 1970).
+// The depth of the stack of walk_term (boolean/claim.h). The walk pushes an entry only for a left child, and the scene
+// compiler puts the child that needs the deeper stack second. So a tree of n leaves needs at most log2(n) <= 29 entries
+// (Sethi and Ullman 1970).
 #define TREE_STACK 30
 
-// Ranks of regions. Regions are numbered by rank, and regions of one rank in the model's order: the claim of the least
-// number is the first in the model among those of the first rank. Regions of different ranks never overlap: the region
-// of the later rank yields, and no overlap is reported.
+// Ranks of regions. Regions are numbered by rank, and regions of one rank in the model's order. So the claimant of the
+// least number is the first of the model among the claimants of the first rank. Regions of different ranks never
+// overlap: the region of the later rank yields, and no overlap is reported.
 #define RANK_SOLID 0
 #define RANK_PLATE 1   // FASTGEN's
 #define RANK_VOLUME 2  // FASTGEN's
@@ -109,8 +108,8 @@ FN u32 same_rank(GLOBAL const u32* ends, u32 a, u32 b) {
     return same;
 }
 
-// A filter of a set of solids: a bit each, which several solids may share. A solid that is not in the filter is not in
-// the set.
+// A (Bloom) filter of a set of solids. Each solid has one bit, which several solids may share. A solid whose bit is not
+// set is not in the set.
 typedef struct {
     u32 even, odd;
 } SolidFilter;
@@ -132,8 +131,8 @@ FN u32 within(SolidFilter a, SolidFilter b) { return !(a.even & ~b.even) && !(a.
 
 // Roles. The role of a solid says what it alone decides about a term: X - (A + B + (C - D)) is false wherever A or B is
 // covered, and needs X; only where C or D is covered the term's words have to be evaluated. The table is open (linear
-// probing): first 32 - log2 of its size, then how many solids the term needs (NONE: more than solids), then the
-// entries, role << TREE_SHIFT | solid, NONE if free.
+// probing): first 32 - log2 of its size, then how many solids the term needs (NONE: it also needs undecided solids),
+// then the entries, role << TREE_SHIFT | solid, NONE if free.
 #define ROLE_BLOCKS 1u
 #define ROLE_NEEDED 2u
 #define ROLE_UNDECIDED 3u
@@ -150,13 +149,12 @@ typedef struct {
     SolidFilter solids;        // all solids of the term
     u32 roles;                 // where the term's table of roles begins, in trees; NONE: it has no table
 } StartRecord;
-#define PLAIN_WORDS 16u     // of a term; a larger one has a table of roles
-#define SCANNED_WORDS 256u  // of a term; a larger one is walked, by its covered leaves
+#define PLAIN_WORDS 16u     // words of a term; a larger term has a table of roles
+#define SCANNED_WORDS 256u  // words of a term; a larger term is walked from covered leaf to covered leaf
 
-// ---- Status trees: regions' trees for deep rays (boolean/status_tree.h) ----
-// Clusters are numbered in pairs, each pair with its parent after it. A pair has a word in `links`: 29 low bits are the
-// pair's parent, 3 high bits tell what becomes of the parent's function. The pair of a region's root has REGION_LINK
-// and the region.
+// ---- Status trees: regions' trees for deep rays (boolean/status_tree.h) ---- Clusters are numbered in pairs, and the
+// parent of a pair has a greater number. Each pair has a word in `links`: 29 low bits are the parent, 3 high bits are
+// the operator that sets the parent's function. The pair of a region's root has REGION_LINK and the region.
 #define RAKE_NONE 0u     // no operator: the parent is part of the same path
 #define RAKE_UNION 1u    // the parent is the union with the rest of the tree
 #define RAKE_COMMON 2u   // the intersection
@@ -191,10 +189,10 @@ typedef struct {
 #define SHAPED_LIGHTS 0
 #endif
 
-// ---- Bounding volume hierarchy ---- Nodes stand in depth-first order: an inner node's first child is the next node;
-// `skip` is the next node when the box is missed, or after a leaf. Solids are numbered in the order of the leaves, so a
-// walk meets them in ascending order. Boxes are relative to Frame.center, rounded outward and padded for the slab test
-// in float.
+// ---- Bounding volume hierarchy ---- Nodes are stored in depth-first order: an inner node's first child is the next
+// node. `skip` is the node that follows after a missed box or a leaf. Solids are numbered in the order of the leaves,
+// so a walk meets them in ascending order. Boxes are relative to Frame.center, rounded outward and padded for the slab
+// test in float.
 
 typedef struct {
     float low[3];
@@ -207,7 +205,8 @@ typedef struct {
 
 // ---- Rays ----
 
-// The work of a batch: rays listed by their tiles' numbers, rays listed by pixels' numbers, or rays that the host gave.
+// The rays of a batch: rays of tiles, whose numbers are listed; rays of pixels, whose numbers are listed; or the
+// records of a list of rays.
 #define WORK_TILES 0u
 #define WORK_PIXELS 1u
 #define WORK_RAYS 2u
@@ -240,7 +239,7 @@ typedef struct {
     u32 perspective;           // 0 or 1
     u32 work;                  // WORK_x: which rays the kernels are run for
     u32 first_ray, ray_count;  // the batch's range of rays
-    u32 starting_node;         // the hierarchy's leaves before it are not seen alone: their solids start no term
+    u32 starting_node;         // leaves before this node are not seen alone: their solids start no term
     u32 unbounded_count, node_count, light_count;
     u32 every_partition;   // 0: only the first hits are wanted
     u32 channels;          // of the picture: CHANNEL_x bits
@@ -260,8 +259,8 @@ typedef struct {
     float of[MOST_CHANNELS];
 } ChannelValues;
 
-// The width of a tile. Rays are numbered in tiles of 8 x 8 pixels, so that the work-items of a group look at
-// neighbours.
+// The width of a tile. Rays are numbered in tiles of 8 x 8 pixels, so that the work-items of a group have neighbouring
+// rays.
 #define TILE 8u
 
 // A ray of a list, and its range. Distances count lengths of the ray's direction.
@@ -270,67 +269,71 @@ typedef struct {
     wide t_near, t_far;
 } RayRecord;
 
-// 0 cull tiles -> first hits, and kernel 1 on processors: an entry of a tile's list of nodes. The nodes hold everything
-// that the tile's rays may meet, each solid once: leaves, or subtrees where there is much. For first hits the nearest
-// node comes first; for every partition the nodes stand in the hierarchy's order. The last entry has no node.
+// An entry of a tile's list of nodes. Kernel 0 makes the list; first hits and, on processors, kernel 1 read it. The
+// nodes hold every solid that the tile's rays may meet, each solid once. They are leaves, or whole subtrees where the
+// list would be too long. For first hits the nearest node comes first; for every partition the nodes are in the
+// hierarchy's order. The last entry has no node.
 typedef struct {
     u32 node;     // NONE: the last entry
-    float entry;  // no ray of the tile enters the node before this distance, less that of the scene's center
+    float entry;  // a lower bound of the distance where the tile's rays enter the node, minus the distance of the
+                  // scene's center
 } TileNode;
 #define LISTED_NODES 32u  // entries of a tile
-#define PACKET_NODES 16u  // of a packet of a list, which makes its list itself; the distances are the packet's own
+#define PACKET_NODES 16u  // entries of a packet of listed rays, which makes its own list (list_hits.cl)
 
-// First hits of a list, in place of a region: the ray has more segments at a time than a sweep has room for.
+// In place of a region, for a first hit of a list that is not known: the ray has more segments at a time than a sweep
+// holds.
 #define HIT_UNKNOWN 0xffffffffu
 
-// 1 count segments -> scan. Before the scan: this ray's counts; after it: the sum over the rays before it in the
-// batch.
+// The counts of a ray, which kernel 1 makes. After the scan they are the sums over the batch's earlier rays.
 typedef struct {
     u32 segments;
     u32 words;  // of bit arrays: partitions_of(segments) * words_of(segments)
 } RayCount;
 #define COUNT_MAX 0xffffffffu  // sums saturate here, which tells the host that a batch is too large
 
-// 1 find candidates -> scan -> 1, 2: counts of candidates, in the form of RayCount, so that the scan adds them up.
+// The count of a ray's candidates, which kernel 1 makes; kernels 1 and 2 read the sums. It has the form of RayCount, so
+// that the scan can add up the counts.
 typedef struct {
     u32 candidates, unused;
 } CandidateCount;
 
 // The report of a batch whose picture is row-major: its tiles by cost, and counts that the host reads when the batch is
-// drawn. Behind the report stands a byte for each of the batch's tiles: not 0 if a ray of the tile sees something.
+// drawn. After the report comes a byte for each of the batch's tiles: not 0 if a ray of the tile sees something.
 #define COST_CLASSES 48u
 typedef struct {
     u32 tiles[COST_CLASSES];   // tiles in each class; class 0 has the tiles that see nothing
     u32 listed[COST_CLASSES];  // tiles of each class that are in the list already; class 0 is not listed
     u32 entries;               // of the list: tiles of all classes but 0, or their parts
-    u32 overflows;             // first hits: rays without room, in no order
-    u32 candidates;            // every partition: how many the rays have, whether there was room for them or not
-    RayCount total;            // of the rays' counts, whether there was room for them or not
+    u32 overflows;             // first hits: rays with more segments at a time than a sweep holds
+    u32 candidates;            // every partition: the rays' candidates, also if the buffers were too small
+    RayCount total;            // of the rays' counts, also if the buffers were too small
 } BatchReport;
 
-// An entry of the list: a tile's number, and in the bits above it 0, or PARTS and more for each part of the tile.
-// Work-items of one warp wait for each other, the more so the more there is to do. So the few tiles that cost most have
-// fewer rays in each warp. ASSUMED_WARP is the size of NVIDIA's warps; on a device of another size the picture is the
-// same.
+// An entry of the list of tiles: a tile's number, and from bit PART_SHIFT on 0 for the whole tile, or PARTS + k for its
+// part k. Work-items of one warp wait for each other, and in costly tiles they wait longest. So the few tiles that cost
+// most have fewer rays in each warp. ASSUMED_WARP is the size of NVIDIA's warps; on a device of another size the
+// picture is the same.
 #define PARTS 4u
-#define PART_SHIFT 26u    // tiles are fewer: their rays have numbers of 32 bits
+#define PART_SHIFT 26u    // tiles have smaller numbers: their 64 rays have numbers of 32 bits
 #define PARTED_CLASS 44u  // costs from 192 on (class_of in tile_list.cl)
 #define ASSUMED_WARP 32u
 
 FN u32 words_of(u32 segments) { return (segments + 31u) >> 5; }
 FN u32 partitions_of(u32 segments) { return 2u * segments; }
 
-// ---- Records that the five kernels hand on. One entry a ray unless said otherwise. ----
+// ---- Records that one kernel makes and a later kernel reads. One entry a ray unless said otherwise. ----
 
-// 1 count segments -> 2 store segments: a solid that a ray may meet. Sorted by ray, then by solid.
+// A candidate: a solid that a ray may meet. Kernel 1 makes the candidates, sorted by ray, then by solid. Kernel 2 reads
+// them.
 typedef struct {
     u32 ray, solid;
-    u32 count, before;  // segments: how many, and how many the ray's earlier candidates have
+    u32 count, before;  // segments of this candidate, and of the ray's earlier candidates
 } Candidate;
 #define UNCOUNTED COUNT_MAX       // `count` before the segments are counted
 #define IN_SOME_FACE 0x80000000u  // set in `count`: the ray may run in a face of the solid (2_rays_in_faces.cl)
 
-// 2 store segments -> weave: a boundary of a segment. A segment has two, in then out; segments come by ascending solid.
+// A boundary of a segment. Kernel 2 stores two for each segment, in then out, and a ray's segments by ascending solid.
 typedef struct {
     real t;
     u32 solid;
@@ -339,8 +342,8 @@ typedef struct {
 
 // Marks in Boundary.surface of both boundaries of a segment. The ray touches the solid along the segment, as far as
 // rounding lets csgrt tell, because it runs in a face of the solid or along its wall. If the ray is moved a little to
-// the mark's side, it misses the solid. Above and below are where ABOVE_Y and ABOVE_Z point, and against them; left and
-// right are across both this direction and the ray (geometry/touch.h). boolean/claim.h uses the marks.
+// the mark's side, it misses the solid. Above is where ABOVE_Y and ABOVE_Z point, and below is the opposite side. Left
+// and right are across both this direction and the ray (geometry/touch.h). boolean/claim.h uses the marks.
 #define MISSED_ABOVE 0x40000000u
 #define MISSED_BELOW 0x20000000u
 #define MISSED_LEFT 0x10000000u
@@ -357,7 +360,7 @@ FN u32 missed_on(u32 side) { return side == 0 ? 0 : MISSED_ABOVE >> (side - 1u);
 typedef struct {
     u32 ray;
     u32 block, segment;             // blocks of boundaries to sort, and segments, of the deep rays before it
-    u32 event, at;                  // the position of the event that is passed, and of the one behind it
+    u32 event, at;                  // the positions of the current event and of the next event
     u32 changed;                    // the segments of boundaries before this position have been opened and closed
     u32 in_boundary, out_boundary;  // of the event: see weave
     u32 open, last;                 // nodes: see weave
@@ -374,7 +377,8 @@ typedef struct {
     u32 covers[SIDES];  // of a solid's first segment: how many of the solid's segments are open on each side
 } DeepSegment;
 
-// 3 weave -> evaluate: linked lists by index into the ray's own 2 * segments nodes.
+// A node of a ray's linked list of partitions, which kernel 3 makes. Links are indices among the ray's 2 * segments
+// nodes.
 typedef struct {
     u32 in_boundary, out_boundary;  // indices, 2 * segment + side, among the ray's; NONE: the node is free
     u32 next;                       // before weaving: the boundary at this position by distance; NONE: the last node
@@ -383,26 +387,28 @@ typedef struct {
 } PartitionNode;
 #define NONE 0x7fffffffu
 #define OVERLAP 0x80000000u
-// The first partition of a ray, whose nodes stand in the order of its events; NONE: it has none.
+// The first partition of a ray; NONE: the ray has none. A ray's nodes are stored in the order of its events.
 FN u32 first_partition(GLOBAL const PartitionNode* nodes, u32 segments) {
     u32 k = 0;
     while (k < partitions_of(segments) && nodes[k].in_boundary == NONE) ++k;
     return k < partitions_of(segments) ? k : NONE;
 }
 
-// 3 weave -> shade -> the host, which needs the sums: in the form of RayCount, so that the scan adds them up.
+// Counts of a ray's partitions. The host needs the sums, so the counts have the form of RayCount, which the scan adds
+// up.
 typedef struct {
     u32 partitions;  // woven
     u32 overlaps;    // partitions that more than one region of the owner's rank claims
 } RayTally;
 
-// 6 rows: the boundaries of a row of the answer to a list, as indices among the batch's; NONE: the ray's range cuts the
-// row there.
+// The boundaries of a row (kernel 6), as indices among the batch's boundaries; NONE: the ray's range cuts the row
+// there.
 typedef struct {
     u32 ray, in_boundary, out_boundary;
 } RowBoundaries;
 
-// 6 rows -> the host: a partition that several regions of the owner's rank claim, and its node among the ray's.
+// An overlap, which kernel 6 gives to the host: a partition that several regions of the owner's rank claim, and the
+// partition's index among the ray's nodes.
 typedef struct {
     wide in, out;
     u32 ray, node;
@@ -417,8 +423,8 @@ typedef struct {
     u32 depth, partitions, overlap;
 } Pixel;
 
-// Channels by groups, in the order in which they stand in the picture. A channel is a float for each of the batch's
-// rays, or for each pixel of its lines.
+// Channels by groups, in the order in which a picture stores them. A channel is a float for each of the batch's rays,
+// or for each pixel of its lines.
 #define CHANNEL_COLOR 1u     // R G B A
 #define CHANNEL_DISTANCE 2u  // Z, the distance
 #define CHANNEL_NORMAL 4u    // N.X N.Y N.Z
@@ -426,12 +432,12 @@ typedef struct {
 #define CHANNEL_COUNTS 16u   // depth, partitions, overlap
 #define CHANNEL_DISPLAY 32u  // R G B A of 8 bits in a word
 
-// The table from light to a display's bytes: for each byte the least light that shows the next byte; and for equal
-// parts of the range 0 to 1 the byte of the part's least light. Few parts hold the limits of several bytes.
+// The table that turns light into a display's bytes. `ends` has for each byte the least light that shows the next byte.
+// `first` has for each of equal parts of the range 0 to 1 the byte of the part's least light; the search begins there.
 #define DISPLAY_PARTS 4096u
 #define DISPLAY_WORDS 1024u
 typedef struct {
-    float ends[256];           // the last one is never reached
+    float ends[256];           // the last limit is never reached
     u32 first[DISPLAY_WORDS];  // of four parts, the first in the lowest byte
 } DisplayBytes;
 

@@ -1,4 +1,4 @@
-// Arguments of kernels that are tables of the scene, in groups; on the host one call sets a group (SceneTables,
+// Kernel arguments that are tables of the scene, in groups. On the host one call sets a group (SceneTables,
 // src/pipeline/passes).
 #ifndef CSGRT_SHARED_SCENE_ARGS_H
 #define CSGRT_SHARED_SCENE_ARGS_H

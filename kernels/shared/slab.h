@@ -1,9 +1,10 @@
-// Slabs: rays against boxes of a bounding volume hierarchy, in float.
+// Slabs: the test of rays against the boxes of a bounding volume hierarchy, in float.
 //
-// The slab test may enter a box that the ray misses, never the reverse. The origin is moved to the ray's closest
-// approach to the hierarchy's center, so |p| <= radius. Then the errors of p, 1/d and the products amount to less than
-// radius * 2^-21 of displacement an axis, and boxes are padded by radius * 2^-20 when they are built. In single
-// precision boxes grow with the distance of the ray's origin: there a ray may meet a solid a little beside it.
+// The slab test may report a box that the ray misses, but it reports every box that the ray hits. The origin is moved
+// to the ray's closest approach to the hierarchy's center, so |p| <= radius. Then the errors of p, 1/d and the products
+// amount to less than radius * 2^-21 of displacement an axis, and boxes are padded by radius * 2^-20 when they are
+// built. In single precision boxes grow with the distance of the ray's origin: there a ray may meet a solid that is a
+// little beside the ray.
 #ifndef CSGRT_SHARED_SLAB_H
 #define CSGRT_SHARED_SLAB_H
 
@@ -23,7 +24,7 @@ typedef struct {
 #define SLAB_SLACK BY_PRECISION(0x1p-10, 0x1p-20, 0x1p-20)  // covers the rounding of t_min to float
 
 // The largest inverse: so large that a ray which runs along a slab never leaves it within the sphere. Infinity times 0
-// would be no number.
+// would be a NaN.
 #define MOST_INVERSE 1e30f
 FN single inverse(single x) {
     const single i = SINGLE(1) / x;
@@ -60,7 +61,7 @@ FN single grown(float x, single pad) { return sizeof(real) == 4 ? x + pad : SING
 #define BOX_MISSED 3.0e38f
 
 // Returns where the ray enters the box, or an earlier distance, in the hierarchy's parameter. The ray misses the box if
-// the result is behind `out`. A ray along a padded face, which is outside the true box, may get either answer.
+// the result is greater than *out. A ray along a padded face, which is outside the true box, may get either answer.
 FN single box_passage(slab_ray s, BvhNode node, single* out) {
     const single x0 = (grown(node.low[0], -s.pad) - s.px) * s.ix, x1 = (grown(node.high[0], s.pad) - s.px) * s.ix;
     const single y0 = (grown(node.low[1], -s.pad) - s.py) * s.iy, y1 = (grown(node.high[1], s.pad) - s.py) * s.iy;
@@ -75,8 +76,7 @@ FN single_lane_mask box_is_hit(slab_ray s, BvhNode node) {
     return in <= out;
 }
 
-// Returns where a range that ends at t_max ends in the hierarchy's parameter: boxes that the ray enters later are not
-// wanted.
+// Returns an upper bound of t_max in the hierarchy's parameter: boxes that the ray enters later are not wanted.
 FN single end_of_range(slab_ray s, real radius, real t_max) {
     return to_single(real_min(t_max * s.length - s.shift, REAL(4) * radius) + radius * SLAB_SLACK);
 }
@@ -93,8 +93,8 @@ FN single box_entry(slab_ray s, BvhNode node) {
     return in <= out ? in : SINGLE(BOX_MISSED);
 }
 
-// A distance along the ray before which nothing in a box begins that is entered at `at`. The box's padding covers the
-// rounding of its own test, but not the rounding of a far origin's distance.
+// A lower bound of the distances along the ray at which the content of a box begins. `at`: where the ray enters the
+// box. The box's padding covers the rounding of its own test, but not the rounding of a far origin's distance.
 FN real distance_before(slab_ray s, float at) {
     return (REAL(at) + s.shift - real_abs(s.shift) * BY_PRECISION(0x1p-20, 0x1p-49, 0x1p-100)) / s.length;
 }

@@ -25,7 +25,7 @@ FN vec3 add_scaled(vec3 a, real s, vec3 b) {
 FN real dot3(vec3 a, vec3 b) { return real_fma(a.z, b.z, real_fma(a.y, b.y, a.x * b.x)); }
 FN real sum_of_sizes(vec3 v) { return real_abs(v.x) + real_abs(v.y) + real_abs(v.z); }
 FN vec3 normalize3(vec3 a) { return scale(a, REAL(1) / real_sqrt(dot3(a, a))); }
-// The unit vector of n; if n has no direction, the one against d.
+// The unit vector of n; if n has no direction, the unit vector against d.
 FN vec3 unit_or_against(vec3 n, vec3 d) {
     const real length2 = dot3(n, n);
     const lane_mask has_direction = length2 > 0 && length2 < REAL_INFINITY;
@@ -55,9 +55,9 @@ FN pair two_product(real a, real b) {
     return r;
 }
 
-// Coordinates of the world are `wide`, lengths within a solid `real`. Both are one type, except in eye-relative single
-// precision (CSGRT_EYE_RELATIVE). There the world is in double: a ray's origin is brought near the scene in double, the
-// solid's center is subtracted in double, and the difference is rounded to float.
+// Coordinates of the world are `wide`, lengths within a solid `real`. The two types are the same, except in
+// eye-relative single precision (CSGRT_EYE_RELATIVE). There the world is in double: a ray's origin is brought near the
+// scene in double, the solid's center is subtracted in double, and the difference is rounded to float.
 #ifdef CSGRT_EYE_RELATIVE
 typedef struct {
     wide x, y, z;
@@ -129,7 +129,7 @@ FN real moved_by(pair offset, real shift, real d) {
     pair sum = two_sum(offset.hi, step.hi);
     return sum.hi + (sum.lo + (step.lo + offset.lo));
 }
-// o + shift d, good to a few ulps of the result however large the two terms are.
+// o + shift d, accurate to a few ulps of the result, however large the two terms are.
 FN vec3 moved(offset3 o, real shift, vec3 d) {
     return make_vec3(moved_by(o.x, shift, d.x), moved_by(o.y, shift, d.y), moved_by(o.z, shift, d.z));
 }
@@ -139,7 +139,7 @@ typedef struct {
     wide3 o, d;
 } world_ray;
 
-// A ray as the geometry takes it.
+// A ray for the functions of geometry/.
 typedef struct {
     wide3 o;  // origin
     vec3 d;   // direction; it need not be a unit vector, distances are in units of it

@@ -1,9 +1,9 @@
-// Beam: a tile's rays as one, the ray through the tile's middle, so thick that it holds them all within the scene's
-// sphere.
+// Beam: one thick ray for all rays of a tile. It is the ray through the tile's middle, so thick that it contains the
+// tile's rays within the scene's sphere.
 //
 // Take a point of one of the rays, and the point of the middle ray at the same distance from the eye (parallel rays:
-// from the picture plane). They are apart by the beam's `spread` at most. So where the middle ray enters a box that is
-// larger by the spread, no ray of the tile has entered the box itself yet.
+// from the picture plane). The distance between these points is at most the beam's `spread`. So where the middle ray
+// enters a box that is larger by the spread, no ray of the tile has entered the box itself yet.
 #ifndef CSGRT_TRAVERSAL_BEAM_H
 #define CSGRT_TRAVERSAL_BEAM_H
 
@@ -14,7 +14,7 @@
 typedef struct {
     slab_ray slabs;
     float pad;   // how much boxes grow
-    wide start;  // of the middle ray's parameter, from the eye
+    wide start;  // where the middle ray's parameter is 0: a distance from the eye
     wide to_center;
 } beam;
 
@@ -68,7 +68,8 @@ FN TileNode entry_of(beam b, GLOBAL const BvhNode* nodes, u32 node) {
     return e;
 }
 
-// The distance for the list. A box that is entered before t_min may hold a segment that begins even earlier.
+// The distance that the list stores, relative to the scene's center. A box that is entered before t_min may hold a
+// segment that begins even earlier.
 FN float entry_from_center(beam b, float at) {
     if (at <= b.slabs.t_min) return -BOX_MISSED;
     return (float)(b.start + (wide)distance_before(b.slabs, at) - b.to_center) - b.pad;

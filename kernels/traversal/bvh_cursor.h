@@ -1,9 +1,9 @@
 // BVH cursor: the walk through a bounding volume hierarchy, of the scene's solids, of a mesh's triangles, or of a
 // sketch's lines.
 //
-// Nodes stand in depth-first order and know the next node when their box is missed, so a walk needs no stack. A cursor
-// is the next node, and the number after the last node. The caller tests the boxes: with a ray, a packet, a beam or a
-// line.
+// Nodes are stored in depth-first order, and each node has the number of the node that follows if its box is missed. So
+// a walk needs no stack. A cursor is the next node, and the number after the last node. The caller tests the boxes:
+// with a ray, a packet, a beam or a line.
 #ifndef CSGRT_TRAVERSAL_BVH_CURSOR_H
 #define CSGRT_TRAVERSAL_BVH_CURSOR_H
 
@@ -32,11 +32,11 @@ FN bvh_cursor bvh_below(GLOBAL const BvhNode* nodes, u32 node) {
 
 FN int bvh_goes_on(bvh_cursor c) { return c.node < c.end; }
 
-// Steps on from `node`, where the cursor is: to its first child if its box is hit, else past all below it. Returns the
-// leaf, as BvhNode has it, if a leaf is hit; else 0.
+// Steps on from `node`, where the cursor is: to its first child if its box is hit, else past all nodes below it.
+// Returns BvhNode.leaf if a leaf is hit, else 0.
 //
-// The steps are branches: a processor predicts the way and loads the next node before the box's test is done. With ?:
-// it waits, and first hits of scenes/meshes.json take 1.45 times as long.
+// The steps are branches: a processor predicts the branch and loads the next node before the box's test is done. With
+// ?: it waits, and first hits of scenes/meshes.json take 1.45 times as long.
 FN u32 bvh_step(bvh_cursor* c, BvhNode node, int hit) {
     if (hit && !node.leaf) {
         ++c->node;

@@ -1,11 +1,11 @@
-// Camera: from a ray's number to the ray. Rays of a picture are numbered in tiles of 8 x 8 pixels of its screen, row by
-// row from the top left.
+// Camera: makes the ray of a number. Rays of a picture are numbered in tiles of 8 x 8 pixels of its screen, row by row
+// from the top left.
 #ifndef CSGRT_TRAVERSAL_CAMERA_H
 #define CSGRT_TRAVERSAL_CAMERA_H
 
 #include "view.h"
 
-// A pixel of a ray's number; `inside` is 0 if the tile has it outside the picture.
+// The pixel of a ray; `inside` is 0 if this pixel of the tile lies outside the picture.
 typedef struct {
     u32 x, y;  // from the top left
     int inside;
@@ -89,8 +89,8 @@ typedef struct {
     real t_min, t_max;
 } ray_range;
 
-// The range for boxes: a box that lies outside it has no wanted segment. A ray that grazes a plate is in it far before
-// and behind its box.
+// The range for boxes: a box that lies outside it has no wanted segment. A ray that grazes a plate is in the plate far
+// before and behind the plate's box.
 FN ray_range range_of_boxes(GLOBAL const Frame* f, ray_range wanted) {
     wanted.t_min = f->whole_lines ? -REAL_INFINITY : wanted.t_min;
     wanted.t_max = f->whole_lines ? REAL_INFINITY : wanted.t_max;
@@ -141,7 +141,7 @@ FN u32 number_of(GLOBAL const Frame* f, GLOBAL const u32* listed, u32 id) {
     return f->work == WORK_PIXELS ? listed[id] : listed[id / (TILE * TILE)] * (TILE * TILE) + id % (TILE * TILE);
 }
 
-// Makes the ray of a number: of a list, or through a pixel. 0: there is no such ray.
+// Makes ray `number` of a list or of a picture. Returns 0 if there is no such ray.
 FN int ray_of(GLOBAL const Frame* f, GLOBAL const RayRecord* rays, u32 number, ray3* r, ray_range* wanted) {
     if (f->work == WORK_RAYS) {
         const RayRecord record = rays[number];

@@ -18,8 +18,8 @@ FN u32 next_leaf_before(slab_ray s, single end, GLOBAL const BvhNode* nodes, bvh
     return leaf;
 }
 
-// Returns how many candidates the ray has; stores them from `candidates` on unless it is 0. `next`: the nodes that the
-// ray's tile meets, in the hierarchy's order; 0: there is no such list.
+// Returns how many candidates the ray has; stores them from `candidates` on unless `candidates` is 0. `next`: the nodes
+// that the ray's tile meets, in the hierarchy's order; 0: there is no such list.
 FN u32 walk(GLOBAL const Frame* f, GLOBAL const BvhNode* nodes, GLOBAL const TileNode* next, ray3 r, ray_range wanted,
             u32 ray, GLOBAL Candidate* candidates) {
     const ray_range within = range_of_boxes(f, wanted);

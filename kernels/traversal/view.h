@@ -24,13 +24,13 @@ FN world_ray view_ray(GLOBAL const Frame* f, wide column, wide row) {
     return r;
 }
 
-// The visible range of a picture's ray, by distance. A plane of the view is a boundary as the solids' are: a surface
-// that is nearer to the plane than the tolerance counts as at the plane.
+// The visible range of a picture's ray, by distance. A plane of the view is a boundary like the boundaries of solids: a
+// surface that is nearer to the plane than the tolerance counts as lying in the plane.
 typedef struct {
     wide from;           // segments that end before it are not wanted
     wide near;           // the nearest visible distance
     wide after;          // partitions that end here or before are not seen,
-    wide before;         // nor partitions that begin here or behind
+    wide before;         // and partitions that begin here or behind are not seen
     tag plane;           // which of the frame's planes cuts the ray at `near`, or NO_PLANE
     lane_mask in_plane;  // the ray runs in some plane (geometry/beyond.h)
 } view_range;
@@ -38,7 +38,7 @@ typedef struct {
 
 FN wide sum_of_wide_sizes(wide3 v) { return wide_abs(v.x) + wide_abs(v.y) + wide_abs(v.z); }
 
-// The range between the planes. They cut as half-spaces do (clip() of geometry/plane.h), at the same distances.
+// The range between the planes. The planes cut as half-spaces do (clip() of geometry/plane.h), at the same distances.
 FN view_range range_in_view(GLOBAL const Frame* f, world_ray r) {
     view_range visible;
     wide far = (wide)REAL_INFINITY, slack;
