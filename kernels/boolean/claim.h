@@ -258,8 +258,8 @@ FN u32 ask_roles(GLOBAL const u32* roles, const covered_solids* list) {
         undecided |= role == ROLE_UNDECIDED;
     }
     if (blocked || (!undecided && wanted == NONE)) return 0;
-    return undecided || wanted != 1 ? ROLE_UNDECIDED
-                                    : needed;  // a solid may be listed twice, so needed solids cannot be counted
+    // A solid may be listed twice, so needed solids cannot be counted.
+    return undecided || wanted != 1 ? ROLE_UNDECIDED : needed;
 }
 
 FN u32 term_holds(cover c, const covered_solids* list, StartRecord start) {

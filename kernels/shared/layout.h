@@ -94,7 +94,7 @@ typedef u32 PlaneRef;
 
 // Ranks of regions. Regions are numbered by rank, and regions of one rank in the model's order. So the claimant of the
 // least number is the first of the model among the claimants of the first rank. Regions of different ranks never
-// overlap: the region of the later rank yields, and no overlap is reported.
+// overlap: the claim of the later rank is ignored, and no overlap is reported.
 #define RANK_SOLID 0
 #define RANK_PLATE 1   // FASTGEN's
 #define RANK_VOLUME 2  // FASTGEN's

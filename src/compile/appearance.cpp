@@ -20,7 +20,7 @@ constexpr double everywhere = 180;  // degrees from the beam's axis
 /// The intensity of a light. As in BRL-CAD, 0 and less mean 1.
 double intensity_of(const Emission& light) { return light.intensity > 0 ? light.intensity : 1; }
 
-/// The record of a light, whose colour is a value for shading.
+/// The record of a light. The light's colour is decoded for shading already.
 kernel::LightRecord light_record(const Light& light) {
     kernel::LightRecord record = light_at(light.position, light.intensity * light.color);
     if (light.infinite) {
@@ -55,8 +55,8 @@ kernel::MaterialRecord material_of(const RegionInfo& info, double brightness, co
                              static_cast<std::uint32_t>(std::max(f.shine, 0)),
                              0};
     if (!f.light) return m;
-    // A body that glows shows half of its colour in any light, and the other half by how much it faces the eye, so that
-    // it looks round.
+    // A body that glows shows half of its colour in any light. The other half depends on how much the surface faces the
+    // eye, so that the body looks round.
     m.specular = m.diffuse = 0;
     m.ambient = ambient > 0 ? to_float(0.5 * brightness / ambient) : 0;
     m.glow = to_float((ambient > 0 ? 0.5 : 1) * brightness);

@@ -1,4 +1,4 @@
-// Appearance: materials, lights and background as the kernels read them.
+// Appearance: makes the materials, lights and background that the kernels read.
 #pragma once
 
 #include <span>
@@ -22,8 +22,8 @@ struct SceneAppearance {
     Vec3 background;
 };
 
-/// The appearance of the scene and its regions, by BRL-CAD's rules for regions that emit light, `shining`. Such a
-/// region without a finite box gives no light; `warnings` say so.
+/// The appearance of the scene and its regions, by BRL-CAD's rules for the regions that emit light, `shining`. A region
+/// of `shining` without a finite box gives no light, and a warning says so.
 Appearance appearance_of(const SceneAppearance& scene, std::span<const RegionInfo> regions,
                          std::span<const RegionLight> shining, bool display_shading, std::vector<Warning>& warnings);
 

@@ -1,5 +1,5 @@
-// Compiling a scene. The steps: validate; flatten and measure, until all solids are within the limits; clip; number;
-// regions, appearance, shapes.
+// Compile: compiles a scene in steps: validate; flatten and measure, until all solids are within the limits; clip by
+// half-spaces; number the solids; pack regions, appearance and shapes.
 
 #include "compile/regions/status_tree.hpp"
 #include "compile/compiled_scene.hpp"
@@ -29,8 +29,8 @@ namespace csgrt {
 
 namespace {
 
-/// The box in which planes of unbounded solids are compared: around everything bounded or, without bounded solids,
-/// around the feet of the planes.
+/// The box in which planes of unbounded solids are compared: around all bounded solids or, if there are none, around
+/// the planes' points that are nearest to the origin.
 Box common_box(const Scene& scene, const FlatScene& flat, const Space& space) {
     double reach = space.radius;
     if (reach == 0) {
@@ -43,8 +43,8 @@ Box common_box(const Scene& scene, const FlatScene& flat, const Space& space) {
     return {{c.x - reach, c.y - reach, c.z - reach}, {c.x + reach, c.y + reach, c.z + reach}};
 }
 
-/// Leaves out solids beyond the limits of size and distance. Returns whether there are any, so that the trees change.
-/// Throws Error (scene) if the scene is strict.
+/// Leaves out solids beyond the limits of size and distance. Returns true if there are such solids: then the trees
+/// change. Throws Error (scene) if the scene is strict.
 bool leave_out_extremes(const Scene& scene, const FlatScene& flat, const Measured& measured, Names& names,
                         std::vector<Warning>& warnings) {
     const std::vector<ExtentFault> faults = extent_faults(scene, flat, measured);
@@ -67,11 +67,11 @@ bool leave_out_extremes(const Scene& scene, const FlatScene& flat, const Measure
     throw Error(Status::scene, findings.take());
 }
 
-/// Joins warnings of the same sentence about one object, at the first of them.
+/// Joins equal warnings about one object into the first of them.
 void join_equal(std::vector<Warning>& warnings) {
     std::map<std::pair<std::string_view, std::string_view>, Warning*> known;
     std::vector<Warning> joined;
-    joined.reserve(warnings.size());  // `known` refers to them
+    joined.reserve(warnings.size());  // `known` refers to the elements
     for (Warning& warning : warnings) {
         if (const auto found = known.find({warning.object, warning.reason}); found != known.end()) {
             found->second->count += warning.count;

@@ -1,4 +1,4 @@
-// Compiled scene: everything that the kernels and the reference need of a Scene, in the order in which they need it.
+// Compiled scene: the data of a Scene that the kernels and the reference need.
 #pragma once
 
 #include <cstdint>
@@ -15,8 +15,8 @@
 
 namespace csgrt {
 
-/// A region's tree as the model gives it (after flattening), in postfix order, for the reference. The reference shares
-/// only the solids' numbers with the words that the kernels read.
+/// A region's tree after flattening, in postfix order, for the reference. Apart from the solids' numbers it is
+/// independent of the words that the kernels read.
 struct FlatTree {
     struct Node {
         Operator op = Operator::leaf;
@@ -34,12 +34,12 @@ struct RegionWords {
 /// A region that emits light.
 struct RegionLight {
     std::uint32_t region = 0;
-    Matrix matrix = identity;  ///< of its first solid; it turns the light's beam
+    Matrix matrix = identity;  ///< of the region's first solid; it turns the light's beam
 };
 
-// The steps of compilation make the structs below, each from the scene and earlier steps' results. Solids are numbered:
-// the unbounded ones first, then in the order of the hierarchy's leaves (some may be in no leaf: see Clipped). Models
-// that differ in appearance alone share the rest.
+// The steps of compilation make the structs below, each from the scene and the results of earlier steps. Numbers of
+// solids: the unbounded solids come first, then the others in the order of the hierarchy's leaves (some solids may be
+// in no leaf: see Clipped). Models that differ in appearance alone share the rest.
 
 /// The positions of solids.
 struct Space {
@@ -54,15 +54,15 @@ struct Space {
 struct Logic {
     SharedVector<std::uint32_t> trees;  ///< words of terms; then the positions of solids in large terms
     SharedVector<kernel::StartRecord> starts;
-    std::uint32_t rank_ends[RANKS] = {};  ///< regions are numbered by rank: the number after the last of each rank
+    std::uint32_t rank_ends[RANKS] = {};  ///< the number after the last region of each rank
     bool has_large_terms = false;         ///< of more than SCANNED_WORDS words
     // The members below stay on the host.
     SharedVector<RegionWords> regions;
     SharedVector<FlatTree> flat_trees;       ///< one a region
     SharedVector<RegionInfo> region_info;    ///< one a region
     std::vector<RegionLight> region_lights;  ///< of the regions that shine
-    Box bounds;                         ///< of the regions (BRL-CAD's rules: a subtraction's box is its left side's)
-    SharedVector<std::uint8_t> claims;  ///< one a region, 0: it claims nothing; empty: all claim. See claimed_by
+    Box bounds;                              ///< of the regions, by BRL-CAD's rules (see tree_box)
+    SharedVector<std::uint8_t> claims;       ///< one a region, 0: it claims nothing; empty: all claim (claimed_by)
 };
 
 /// The shapes that rays meet.
@@ -82,7 +82,7 @@ struct Shapes {
 /// Appearance: the data for shading.
 struct Appearance {
     SharedVector<kernel::MaterialRecord> materials;  ///< one a region
-    std::vector<kernel::LightRecord> lights;         ///< the scene's own; empty: the view supplies one
+    std::vector<kernel::LightRecord> lights;         ///< the scene's lights; empty: the view supplies a light
     std::vector<double> background{0, 0, 0};
     double ambient = 0.4;
     SharedVector<kernel::DisplayBytes> display;  ///< one
@@ -103,7 +103,7 @@ class LateStatusTree;  // regions/status_tree.hpp
 struct CompiledScene : Space, Logic, Shapes, Appearance {
     std::shared_ptr<LateStatusTree> status_tree;  ///< made for the first deep ray
     std::uint64_t geometry_hash = 0;              ///< FNV-1a over everything except appearance
-    std::uint64_t hash = 0;         ///< FNV-1a over everything that crosses the bus: equal scenes have equal hashes
+    std::uint64_t hash = 0;         ///< FNV-1a over everything that the device gets: equal scenes have equal hashes
     std::vector<Warning> warnings;  ///< see Model::warnings
 };
 

@@ -97,7 +97,7 @@ Axes axes_of(const Camera& camera, dvec3 center) {
     if (camera.eye) {
         axes.back = direction_of(in_range(*camera.eye, "the place of the eye") - center, axes.distance);
         if (!(axes.distance > 0)) refuse("the eye stands at the point that it looks at");
-        // The right axis is level; seen along z, it is that of azimuth 0.
+        // The right axis is level; if the view looks along z, it is the right axis of azimuth 0.
         double level = 0;
         axes.right = direction_of({-axes.back.y, axes.back.x, 0}, level);
         if (!(level > 0)) axes.right = {0, 1, 0};
@@ -109,7 +109,7 @@ Axes axes_of(const Camera& camera, dvec3 center) {
         axes = {{-sin_a, cos_a, 0}, {-sin_e * cos_a, -sin_e * sin_a, cos_e}, {cos_e * cos_a, cos_e * sin_a, sin_e}};
     }
     if (camera.up) {
-        constexpr double least_sine = 1e-9;  // below it rounding would decide which way is right
+        constexpr double least_sine = 1e-9;  // below this sine rounding would decide the right axis
         double length = 0, sine = 0;
         for (const double x : {camera.up->x, camera.up->y, camera.up->z}) finite(x, "the direction upward");
         const dvec3 up = direction_of(to_glm(*camera.up), length);
@@ -121,8 +121,8 @@ Axes axes_of(const Camera& camera, dvec3 center) {
     return axes;
 }
 
-/// The distance from an orthographic view's centre to its rays' origins: BRL-CAD's eye, or before the whole model if
-/// that is farther.
+/// The distance from an orthographic view's centre to its rays' origins: BRL-CAD's eye, or, if it is farther, a point
+/// before the whole model.
 double plane_to_center(const CompiledScene& scene, const Surroundings& model, dvec3 center, dvec3 back, double half) {
     const double eye = standoff * half;
     double model_end = 0;
@@ -135,16 +135,16 @@ double plane_to_center(const CompiledScene& scene, const Surroundings& model, dv
     return std::max({eye, model_end, scene_end});
 }
 
-/// BRL-CAD's own light, for a scene without lights. It stands half a view back from the eye and half a view to its
-/// left, in the view that shows the whole model orthographically. It stays there when the view shows a part. Fitted to
-/// BRL-CAD's pictures of spheres.
+/// BRL-CAD's own light, for a scene without lights. The light is half a view behind the eye and half a view to the
+/// eye's left, in the orthographic view of the whole model. It does not move when a view shows a part. The position is
+/// fitted to BRL-CAD's pictures of spheres.
 dvec3 light_of_model(const Surroundings& model, const Axes& axes) {
     const dvec3 eye = model.center + standoff * model.half * axes.back;
     return eye + model.half * (axes.back - axes.right);
 }
 
-/// The light for a view with a perspective: by the eye, if the eye is near. The farther away the eye is, the nearer the
-/// light is to the orthographic view's, which a perspective of nearly 0 shows.
+/// The light for a view with a perspective. If the eye is near, the light is beside the eye. The farther away the eye
+/// is, the nearer is this light to the light of the orthographic view, to which a perspective of nearly 0 converges.
 dvec3 light_by_eye(const Surroundings& model, const Axes& axes, dvec3 eye, double half) {
     const double near = standoff * model.half, distance = glm::dot(eye - model.center, axes.back);
     const dvec3 at = eye + half * (axes.back - axes.right);
@@ -229,8 +229,8 @@ PreparedFrame prepare_frame(const CompiledScene& scene, const View& view, double
     kernel::Frame& frame = result.frame;
     put_scene(scene, tolerance, frame);
     put(eye, frame.eye);
-    // The steps are all exact. So each ray is the whole view's, to the last bit, unless it is moved by a part of a
-    // pixel.
+    // The steps are all exact. So each ray is equal to the ray of the whole view, to the last bit, unless it is moved
+    // by a fraction of a pixel.
     const double step = sampling.step;
     put(step * (pixel * axes.right), frame.u);
     put(step * (pixel * axes.up), frame.v);

@@ -1,4 +1,4 @@
-// Frame: made of a View and a CompiledScene. It holds everything that a kernel needs to know about one picture.
+// Frame: everything that a kernel needs to know about one picture. It is made from a View and a CompiledScene.
 #pragma once
 
 #include <vector>
@@ -17,22 +17,23 @@ struct PreparedFrame {
     Vec3 right, up, back;      ///< the view's axes; `back` points to the eye
     Vec3 center;
     double aspect = 1;       ///< of the whole view: width / height
-    std::uint64_t rays = 0;  ///< numbers of rays: the screen's pixels, filled up to whole tiles
+    std::uint64_t rays = 0;  ///< rays of the screen's pixels, filled up to whole tiles
 };
 
-/// The rays of a view that are drawn: every `step`-th column and line from the first ones on, moved by a part of a
+/// The rays of a view that are drawn: every `step`-th column and line from the first ones on, moved by a fraction of a
 /// pixel.
 struct Sampling {
     int step = 1, column = 0, line = 0;  ///< step: a power of two; column and line: less than step
     double right = 0, down = 0;
 };
 
-/// Prepares BRL-CAD's view. A negative `tolerance` means the scene's. Throws Error (usage) for sizes and angles that
-/// have no meaning.
+/// Prepares BRL-CAD's view. A negative `tolerance` means the scene's tolerance. Throws Error (usage) for sizes and
+/// angles that have no meaning.
 PreparedFrame prepare_frame(const CompiledScene& scene, const View& view, double tolerance = -1,
                             const Sampling& sampling = {});
 
-/// Puts in what the frame of every view or list has of a scene. A negative `tolerance` means the scene's.
+/// Sets the members of a frame that depend on the scene alone, for views and lists of rays. A negative `tolerance`
+/// means the scene's tolerance.
 void put_scene(const CompiledScene& scene, double tolerance, kernel::Frame& frame);
 
 /// The model's box for BRL-CAD's default view: rounded outward to whole millimetres (at least one millimetre of

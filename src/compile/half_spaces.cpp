@@ -1,5 +1,5 @@
-// Moving half-spaces down trees. (A + B + (C - D)) and H becomes (A and H) + B + (C and H) - D, if H cuts A and C and
-// holds B. So terms stay small, and only the terms of cut solids have H.
+// Half-spaces are moved down trees. (A + B + (C - D)) and H becomes (A and H) + B + (C and H) - D, if H cuts A and C
+// and contains B. So terms stay small, and only the terms of cut solids have H.
 
 #include "compile/half_spaces.hpp"
 
@@ -22,7 +22,7 @@ using HalfSpaces = std::vector<std::optional<Plane>>;
 
 enum class Side { inside, cut, outside };
 
-/// The side of a plane on which a box lies. `margin`: a box that is no farther away is cut.
+/// The side of a plane on which a box lies. `margin`: a box within this distance of the plane counts as cut.
 Side side_of(const Box& box, const Plane& plane, double margin) {
     if (!is_finite(box)) return Side::cut;
     double low = -plane.distance, high = -plane.distance;
@@ -36,7 +36,7 @@ Side side_of(const Box& box, const Plane& plane, double margin) {
     return high < -margin ? Side::inside : low > margin ? Side::outside : Side::cut;
 }
 
-/// Moves half-spaces down trees, to the solids that they cut.
+/// The cutter moves half-spaces down trees, to the solids that they cut.
 class Cutter {
 public:
     Cutter(const HalfSpaces& halves, const std::vector<Box>& boxes, double margin)
@@ -80,7 +80,7 @@ public:
 
 private:
     static constexpr std::uint32_t none = 0xffffffff;
-    /// An element of a list of cuts: the part inside the half-space stays, or the part outside.
+    /// An element of a list of cuts. The part inside the half-space is kept, or the part outside.
     struct Cut {
         std::uint32_t half;
         bool keeps_outside;
@@ -88,7 +88,7 @@ private:
     };
     struct Task {
         std::uint32_t node, cuts;
-        std::uint32_t operands;  ///< that are written already: their operator is next; 0: the node is next
+        std::uint32_t operands;  ///< 0: the node is next; else these operands are written, and their operator is next
     };
 
     bool is_half(std::uint32_t node) const {
@@ -100,7 +100,7 @@ private:
         const Operator op = (*given_)[node].op;
         operands_.clear();
         for (std::uint32_t next = node; operands_.size() < (*given_)[node].arity; next = first_[next - 1])
-            operands_.push_back(next - 1);  // the last operand is the first here
+            operands_.push_back(next - 1);  // in reverse order
         if (op == Operator::intersection || op == Operator::difference) cuts = take_halves(op, cuts);
         const std::optional<std::uint32_t> left = left_of(cuts, subtrees_[node]);
         if (!left) return push(Value::nothing);
@@ -121,7 +121,7 @@ private:
                 {operand, op == Operator::union_ || (is_passed_on && operand == cut_one) ? *left : none, 0});
     }
 
-    /// Takes the half-spaces out of the operands, unless nothing would be left for them to cut. Returns the cuts.
+    /// Moves the half-spaces among the operands to the cuts, unless no other operand would be left. Returns the cuts.
     std::uint32_t take_halves(Operator op, std::uint32_t cuts) {
         const bool is_difference = op == Operator::difference;
         const auto end = is_difference ? operands_.end() - 1 : operands_.end();
@@ -142,7 +142,7 @@ private:
         return side_of(box, *halves_[cut.half], margin_) == (cut.keeps_outside ? Side::inside : Side::outside);
     }
 
-    /// Returns the cuts that go through the box; nothing if they leave nothing of it.
+    /// Returns the cuts that go through the box; nullopt if the cuts leave nothing of the box.
     std::optional<std::uint32_t> left_of(std::uint32_t cuts, const Box& box) {
         std::uint32_t left = none, count = 0, left_count = 0;
         for (std::uint32_t i = cuts; i != none; i = cuts_[i].next, ++count) {
@@ -198,13 +198,13 @@ private:
     std::vector<Cut> taking_;
 };
 
-/// A ray that grazes a plate may meet it outside its box.
+/// A ray that grazes a plate may meet the plate outside its box.
 bool is_plate(const Shape& shape) {
     const auto* bot = std::get_if<Bot>(&shape);
     return bot != nullptr && bot->mode != Bot::Mode::volume;
 }
 
-/// The regions that use a solid: bounded ones only, or others too.
+/// The regions that use a solid: bounded regions only, or unbounded regions, too.
 enum class Use : std::uint8_t { none, bounded, unbounded };
 
 template <class Call>
@@ -241,7 +241,7 @@ Clipped clip_by_half_spaces(const Scene& scene, const FlatScene& flat, const std
     std::vector<Box> limits = boxes;
     for (std::size_t i = 0; i < boxes.size(); ++i)
         if (is_plate(shape_of(scene, flat, flat.instances[i]))) limits[i] = whole_space;
-    // The margin is far more than the distance of boundaries that are one, and than rounding.
+    // The margin is far more than rounding, and than the distance within which boundaries are one event.
     const double margin =
         1e-5 * diagonal(around) + 4 * scene.tolerance + 16 * coordinate_rounding * largest_coordinate(around);
     Clipped result;
@@ -254,8 +254,8 @@ Clipped clip_by_half_spaces(const Scene& scene, const FlatScene& flat, const std
         for_each_leaf(cut, [&](std::uint32_t solid) { uses[solid] = std::max(uses[solid], Use::bounded); });
         const Use of_halves = is_finite(tree_box(region.tree, limits)) ? Use::bounded : Use::unbounded;
         for_each_leaf(region.tree, [&](std::uint32_t solid) {
-            // The reference evaluates the original tree. And a solid removed from a dropped solid may end within the
-            // tolerance of another solid's boundary: then the two are one point.
+            // The reference evaluates the original tree. And a solid that was subtracted from a removed solid may end
+            // within the tolerance of another solid's boundary: then the two boundaries are one event.
             uses[solid] = std::max(uses[solid], halves[solid]         ? of_halves
                                                 : cutter.takes(solid) ? Use::none
                                                                       : Use::bounded);

@@ -1,5 +1,5 @@
-// Half-spaces in trees. A half-space that cuts a whole model stands in every region's tree and meets every ray, though
-// nearly all solids lie on one side of it. Clipping moves it to the solids that it cuts.
+// Half-spaces in trees. A half-space that cuts a whole model is in every region's tree and meets every ray, though
+// nearly all solids lie on one side of it. Clipping moves the half-space to the solids that it cuts.
 #pragma once
 
 #include <vector>
@@ -12,14 +12,14 @@ namespace csgrt {
 
 /// The result of clipping. The lists are empty if nothing changes.
 struct Clipped {
-    /// One a region: the region's tree, with half-spaces at the solids that they cut, without them at solids that they
-    /// hold, and without the solids that they take away. No nodes: nothing is left of the region.
+    /// One a region: the region's tree after clipping. A half-space is only at the solids that it cuts, and solids that
+    /// are cut away are gone. No nodes: nothing is left of the region.
     std::vector<FlatTree> trees;
-    /// One an instance: the box in which rays have to meet it. For most solids it is their own box; for a half-space
-    /// that only bounded regions use, its part within `end`; empty if no tree needs the solid and nothing that is left
-    /// is near it.
+    /// One an instance: the box in which rays have to meet the instance. For most solids it is the solid's box. For a
+    /// half-space that only bounded regions use, it is the part within `end`. It is empty if no tree needs the solid
+    /// and no remaining solid is near.
     std::vector<Box> ray_boxes;
-    Box end{};  ///< the box around all bounded solids, farther off than boundaries that are one
+    Box end{};  ///< the box around all bounded solids, with a margin greater than the tolerance
 };
 
 /// Clips the trees. `boxes`: one an instance, see SolidBoxes::tight.

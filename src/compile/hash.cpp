@@ -24,7 +24,7 @@ std::uint64_t hash_of(const CompiledScene& scene) {
     hash.add_all(scene.materials.get());
     hash.add(static_cast<std::uint64_t>(scene.lights.size()));
     for (const kernel::LightRecord& light : scene.lights) {
-        // A record may end in padding, so each field is added by itself.
+        // A record may end in padding, so its members are added one by one.
         for (const double x : {light.x, light.y, light.z, light.w, light.bx, light.by, light.bz, light.cosine})
             hash.add(x);
         for (const float color : {light.r, light.g, light.b}) hash.add(color);

@@ -1,4 +1,4 @@
-// Hash of a compiled scene: one number for everything that crosses the bus.
+// Hash of a compiled scene: one number for all data that the device gets.
 #pragma once
 
 #include <cstdint>

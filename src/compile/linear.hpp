@@ -52,8 +52,7 @@ inline Box intersected(const Box& a, const Box& b) {
     return {{glm::max(a.low.x, b.low.x), glm::max(a.low.y, b.low.y), glm::max(a.low.z, b.low.z)},
             {glm::min(a.high.x, b.high.x), glm::min(a.high.y, b.high.y), glm::min(a.high.z, b.high.z)}};
 }
-/// The relative rounding error of a coordinate of the world, or of a result from it and a few matrices: this much of
-/// the largest coordinate.
+/// The rounding error of a world coordinate after a few matrices, relative to the largest coordinate.
 inline constexpr double coordinate_rounding = 0x1p-49;
 inline double largest_coordinate(const Box& box) {
     const auto largest = [](const Vec3& p) { return glm::max(glm::abs(p.x), glm::max(glm::abs(p.y), glm::abs(p.z))); };

@@ -1,5 +1,5 @@
-// Chunks of solids: the data between the steps of packing a scene. Each chunk has a fixed number of solids and is one
-// thread's.
+// Chunks of solids: the data between the steps of packing a scene. Each chunk has a fixed number of solids, and one
+// thread works on it.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +21,7 @@
 
 namespace csgrt {
 
-/// A plane of a solid on its way into the scene's table: all data of the search, in one cache line.
+/// A plane of a solid on its way into the scene's table: all data that the search needs, in one cache line.
 struct alignas(64) PackedPlane {
     PlaneTable::Key key;
     kernel::PlaneRef ref = 0;  ///< first in the shard's table, then in the scene's
@@ -36,21 +36,20 @@ struct PackedChunk {
 
     struct Part {
         std::uint32_t first_real, reals;  ///< within the chunk
-        std::uint32_t stands;             ///< the solid whose reals it uses: its own, or those of an earlier solid
+        std::uint32_t stands;             ///< the solid whose reals this solid uses: itself or an earlier solid
         std::uint32_t faces, cuts;        ///< numbers of planes; equal faces of a polyhedron count once
         bool is_large, is_polyhedron;
     };
     std::vector<Part> parts;  ///< one a solid
     std::vector<double> reals;
-    std::vector<PackedPlane> planes;  ///< faces, then cuts, one solid's after the other's
-    std::vector<std::pair<std::uint32_t, SurfaceTable::Surface>> surfaces;  ///< with the number of its solid within the
-                                                                            ///< chunk
+    std::vector<PackedPlane> planes;                                        ///< for each solid its faces, then its cuts
+    std::vector<std::pair<std::uint32_t, SurfaceTable::Surface>> surfaces;  ///< with their solids' numbers in the chunk
     std::vector<std::vector<PackedPlane>> large_faces;  ///< one list a large solid; not yet among `planes`
     std::vector<Warning> warnings;
     std::uint32_t solid_types = 0;
 };
 
-/// Calls with the number of each chunk, several at once.
+/// Calls `call` with the number of each chunk, several at once.
 template <class Call>
 void for_each_chunk(const std::vector<PackedChunk>& chunks, const Call& call) {
     for_chunks(chunks.size(), 1, 0, [&](std::size_t number, std::size_t, std::size_t) { call(number); });
@@ -61,13 +60,14 @@ struct Shell {
     std::uint32_t outer, inner;
     double thickness;  ///< millimetres
 };
-/// A list of the shells thicker than rounding: modellers' numbers are good to 1e-12 of a solid's size. Any thread.
+/// A list of the shells that are thicker than rounding: numbers from modellers are accurate to 1e-12 of a solid's size.
+/// Any thread may add.
 class Shells {
 public:
     /// `common`: a box around the scene.
     explicit Shells(const Box& common) : rounding_(4 * coordinate_rounding * largest_coordinate(common)) {}
-    /// Adds a shell. `depth`: how far the second solid lies within the first; negative: the first within the second.
-    /// `box`: the second's.
+    /// Adds a shell. `depth`: how far the second solid lies within the first; negative: the first lies within the
+    /// second. `box`: the box of the second solid.
     void add(std::size_t first, std::size_t second, double depth, const Box& box) {
         if (!(std::fabs(depth) > std::max(rounding_, 1e-12 * diagonal(box))) || first == second) return;
         if (depth < 0) std::swap(first, second);
@@ -82,8 +82,8 @@ private:
     std::vector<Shell> all_;
 };
 
-/// Finds the planes that several solids share: fills planes of `shapes`, appends references to its words, and sets the
-/// solids' ranges of them. `empty`: a table without planes.
+/// Finds the planes that several solids share: fills the planes of `shapes`, appends the references to its words, and
+/// sets the solids' ranges of references. `empty`: a table without planes.
 void share_planes(std::vector<PackedChunk>& chunks, const PlaneTable& empty, const Box& common, Shapes& shapes,
                   Shells& shells, std::vector<Warning>& warnings);
 

@@ -1,5 +1,5 @@
-// Packing a scene. Several threads compute the solids. Shared planes and surfaces are found as if one after the other,
-// in the solids' order, so that the result does not depend on the threads.
+// Pack scene: packs the solids of a scene with several threads. Shared planes and surfaces are found as one thread
+// would find them in the solids' order, so the result does not depend on the threads.
 #include <algorithm>
 #include <map>
 #include <set>
@@ -15,8 +15,8 @@ namespace csgrt {
 
 namespace {
 
-/// Does a solid's Packer leave the scene's tables alone? Types without a fixed size write there, and share their
-/// elements.
+/// Does a solid's Packer leave the scene's tables alone? Types without a fixed size write into these tables, and share
+/// their elements.
 struct IsSmall {
     template <class Shape>
     bool operator()(const Shape&) const {
@@ -42,8 +42,8 @@ void check_numbers(std::size_t count) {
 
 namespace {
 
-/// Packs the solids of a scene in steps: each solid by itself, then shared surfaces and planes, then the layout of all
-/// numbers. The steps run over chunks, several at once.
+/// The packer of a scene's solids works in steps: each solid by itself, then shared surfaces and planes, then the
+/// layout of all numbers. In each step several threads work on chunks.
 class ScenePacker {
 public:
     ScenePacker(const Scene& scene, const FlatScene& flat, const Measured& measured, const Clipped& clipped,
@@ -243,7 +243,7 @@ private:
         append_keys(faces, chunk.large_faces.emplace_back());
     }
 
-    /// Warns of shells that a region loses: the region holds the outer solid less the inner.
+    /// Warns of shells that a region loses: regions that contain the outer solid minus the inner solid.
     void note_shells() {
         if (shells_.all().empty()) return;
         std::map<std::pair<std::uint32_t, std::uint32_t>, double> thickness;  // by pair of instances
@@ -294,7 +294,7 @@ private:
     const std::vector<kernel::SolidRecord>& terms_;
     std::vector<Warning>& warnings_;
     Shapes shapes_;
-    PlaneTable planes_;  ///< empty, as the next: the shards' tables begin as copies
+    PlaneTable planes_;  ///< empty, as is `surfaces_`: the shards' tables begin as copies
     SurfaceTable surfaces_;
     SharedParts shared_;
     Shells shells_;

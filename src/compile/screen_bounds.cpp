@@ -7,7 +7,7 @@
 namespace csgrt {
 namespace {
 
-// The number of the hierarchy's boxes: more boxes fit closer, but take longer than the saved rays.
+// The number of boxes to project: more boxes would fit closer, but would take longer than the rays that they save.
 constexpr std::size_t most_boxes = 64;
 
 std::vector<kernel::BvhNode> upper_boxes(const std::vector<kernel::BvhNode>& nodes) {
@@ -33,8 +33,8 @@ struct Extent {
     double left = INFINITY, right = -INFINITY, top = INFINITY, bottom = -INFINITY;
 };
 
-// Extends the range by the projection of the box, larger by `more` all around. False: a part of the box is not before
-// the eye.
+// Extends the range by the projection of the box, larger by `more` all around. Returns false if a part of the box is
+// not before the eye.
 bool take_in(const kernel::Frame& f, const kernel::BvhNode& box, double more, Extent& extent) {
     for (unsigned corner = 0; corner < 8; ++corner) {
         double p[3];
@@ -62,8 +62,8 @@ kernel::ScreenBounds screen_bounds(const CompiledScene& scene, const kernel::Fra
     const kernel::ScreenBounds all{0, 0, f.width, f.height};
     if (scene.unbounded_count > 0) return all;
     if (scene.nodes.empty()) return {};
-    // The margin: boxes grow by it for single rays (kernels/shared/slab.h), and coordinates are rounded. It is the same
-    // for every precision.
+    // The margin by which boxes grow in single precision (kernels/shared/slab.h), and for rounded coordinates. It is
+    // the same for every precision.
     double to_center = 0, center = 0;
     for (int k = 0; k < 3; ++k) {
         to_center = std::hypot(to_center, f.eye[k] - f.center[k]);

@@ -1,5 +1,6 @@
-// Shards: search among millions of items by several threads, with the result of one thread that takes them in order.
-// Items that may be equal fall into one shard, each shard is searched in order, and different shards are independent.
+// Shards: several threads search for equal items among millions, with the result of one thread that takes the items in
+// order. Items that may be equal are in one shard, each shard is searched in order, and different shards are
+// independent.
 #pragma once
 
 #include <algorithm>
@@ -17,8 +18,7 @@
 
 namespace csgrt {
 
-/// A partition of items into shards, by the cells in which they are looked up. Items that may be equal are in one
-/// shard, so threads search different shards at the same time and find what one thread would find.
+/// The division of items into shards, by the cells in which the items are looked up.
 class Shards {
 public:
     static constexpr std::uint32_t count = 4096;
@@ -28,7 +28,7 @@ public:
         std::uint32_t chunk, index;
     };
 
-    /// Items of one thread.
+    /// The items of one thread.
     class Chunk {
     public:
         void reserve(std::size_t items) { of_.reserve(items); }
@@ -50,8 +50,8 @@ public:
     private:
         friend Shards;
 
-        /// Returns the shard of the first cell. The few items near a border join the shards of all cells that they
-        /// touch.
+        /// Returns the shard of the first cell. An item near a border joins the shards of all cells that it touches
+        /// into one; such items are few.
         template <std::size_t n>
         std::uint16_t shard_of(const std::array<Dimension, n>& at) {
             std::array<CellRange, n> ranges;
@@ -84,7 +84,7 @@ public:
         for (const Chunk& chunk : chunks_)
             for (const auto& [a, b] : chunk.joined_) root_[root(a)] = root(b);
         for (std::uint32_t i = 0; i < count; ++i) root_[i] = root(static_cast<std::uint16_t>(i));
-        // Many chunks form one group: a group has a count for each shard.
+        // Chunks are put into groups, because each group needs a count for every shard.
         constexpr std::size_t most_groups = 64;
         const std::size_t group_size = std::max<std::size_t>(1, (chunks_.size() + most_groups - 1) / most_groups);
         std::vector<std::array<std::uint32_t, count>> groups((chunks_.size() + group_size - 1) / group_size);
@@ -100,7 +100,7 @@ public:
         for (auto& counts : groups)
             for (std::uint32_t shard = 0; shard < count; ++shard)
                 next[shard] += std::exchange(counts[shard], next[shard]);
-        // Large shards come first, so that none begins when the others have ended.
+        // Large shards come first, so that no thread begins a large shard at the end.
         for (std::uint32_t shard = 0; shard < count; ++shard)
             if (size_of(shard) > 0) by_size_.push_back(static_cast<std::uint16_t>(shard));
         std::stable_sort(by_size_.begin(), by_size_.end(), [this](auto a, auto b) { return size_of(a) > size_of(b); });
@@ -112,8 +112,8 @@ public:
         });
     }
     /// Calls work(table, members, shard) for each shard that has members, several at once, with a table that is cleared
-    /// before. Each thread has its own table, which begins as a copy of `empty`: new memory for every shard was a
-    /// seventh of the pages that compiling took.
+    /// before. Each thread has its own table, which begins as a copy of `empty`: new memory for every shard made a
+    /// seventh of the memory pages of compiling.
     template <class Table, class Work>
     void for_each(const Table& empty, const Work& work) const {
         constexpr std::size_t few = 8192;  // items below which threads would take longer to start

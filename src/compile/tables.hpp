@@ -1,4 +1,4 @@
-// Tables of a compiled scene, as the kernels' geometry takes them.
+// Tables of a compiled scene, in the form that the kernels' geometry reads.
 #pragma once
 
 #include "base/laboratory.hpp"

@@ -44,8 +44,8 @@ constexpr long double sparse = 5e-4L;
 /// Numbers of points.
 using Points = std::vector<std::uint32_t>;
 
-/// A cube within -1 to 1, how far it extends in the wanted direction, and the points whose fields are not 0 in it, or
-/// more points.
+/// A cube within -1 to 1, its extent in the wanted direction, and a list that holds the points whose fields are not 0
+/// in it.
 struct Cube {
     Wide center;
     long double half, reach;
@@ -53,8 +53,8 @@ struct Cube {
     bool operator<(const Cube& other) const { return reach < other.reach; }
 };
 
-/// The extent of a metaball in direction n. Cubes in which the fields may add up to the threshold, the farthest first,
-/// are cut into eight until the farthest is small.
+/// The extent of a metaball in direction n. The search cuts cubes into eight, the farthest cube first, and drops cubes
+/// in which the fields cannot add up to the threshold. It ends when the farthest cube is small.
 class FieldSupport {
 public:
     explicit FieldSupport(const Metaball& s) : s_(s), frame_(frame_of(s)) {

@@ -20,7 +20,7 @@ Box around_planes(const std::vector<Plane>& planes, const Vec3& near = {}) {
     const Box box = polyhedron_box(planes, near);
     if (!is_finite(box)) return box;
     if (is_empty(box)) {
-        // A ray never hits the solid, so any position will do.
+        // A ray never hits the solid, so any position serves.
         const Vec3 foot =
             planes.empty() ? Vec3{} : narrow(wide(planes[0].normal) * static_cast<long double>(planes[0].distance));
         return {foot, foot};
@@ -49,10 +49,10 @@ Box Tight::operator()(const Tgc& s) const {
 Box Tight::operator()(const Arb& s) const { return arb_box(s, m, arb_faces(s, m)); }
 Box Tight::operator()(const Arbn& s) const { return around_planes(arbn_faces(s, m)); }
 Box Tight::operator()(const Half&) const { return whole_space; }
-// The box of the circle, enlarged by that of the tube's ball.
+// The box of the circle, enlarged by the box of a ball of the tube's radius.
 Box Tight::operator()(const Tor& s) const {
     const Wide h = glm::normalize(wide(s.h));
-    // The plane of the circle is that of the projections of x, y, z; its box comes from |e_i - (e_i . h) h|.
+    // The projections of x, y and z onto the circle's plane are e_i - (e_i . h) h. Their lengths give the circle's box.
     const WideMatrix linear = linear_part(m);
     const WideMatrix disc = linear * (WideMatrix(1) - glm::outerProduct(h, h));
     return box_around(transform_point(m, wide(s.v)), static_cast<long double>(s.r_a) * half_size(disc) +
@@ -85,7 +85,7 @@ bool is_right_cylinder(const Tgc& s, const Matrix& m) {
            small(glm::dot(h, b) / (hh * bb), dot_tolerance);
 }
 
-/// BRL-CAD's box of a solid. Most are the exact ones.
+/// BRL-CAD's box of a solid. For most types it is the exact box.
 struct BrlCad {
     const Matrix& m;
     const Box& exact;  ///< as Tight has it
@@ -119,8 +119,9 @@ struct BrlCad {
 
 namespace {
 
-/// The box around the part of a torus between two planes through its axis, less than half of it. The balls of the tube
-/// along the arc lie within the hull of three balls: at both ends of the arc and at the corner of its tangents.
+/// The box around the part of a torus between two planes through its axis, less than half of it. All balls of the tube
+/// along the arc lie within the hull of three balls: at the two ends of the arc, and where the tangents at these ends
+/// meet.
 Box bend_box(const Tor& s, const Matrix& m, const std::vector<Plane>& cuts) {
     const Wide axis = glm::normalize(wide(s.h)), from = -wide(cuts[0].normal), to = wide(cuts[1].normal);
     const long double radius = s.r_a, tube = s.r_h;
@@ -165,7 +166,8 @@ namespace {
 /// Calls with the box of each node's subtree, in the order of the nodes.
 template <class Call>
 void for_each_subtree(const FlatTree& tree, const std::vector<Box>& boxes, const Call& call) {
-    // The boxes of a set and of its complement. With both, a set has one box however its tree is written.
+    // The boxes of a set and of its complement. With the two boxes, the result does not depend on how a set's tree is
+    // written.
     struct Both {
         Box inside, outside;
     };

@@ -1,4 +1,4 @@
-// Boxes around solids and regions.
+// Bounds: the boxes around solids and regions.
 #pragma once
 
 #include <vector>
@@ -15,12 +15,12 @@ struct SolidBoxes {
     /// The box around everything that a ray can hit of the solid: tight, and rounded outward. Infinite if the solid is
     /// not bounded.
     Box tight;
-    /// The box that BRL-CAD gives the solid: wider for some types (cones, hyperboloids), and not rounded. The boxes of
-    /// regions, and with them BRL-CAD's view of a model, come from these boxes.
+    /// The box that BRL-CAD gives the solid: wider for some types (cones, hyperboloids), and not rounded. BRL-CAD's
+    /// boxes of regions and its view of a model are made from these boxes.
     Box brlcad;
 };
-/// Both boxes of a solid. `cuts` (a torus only; see SolidPart) keep the part inside them. `faces`: an arb's, if they
-/// are known.
+/// The two boxes of a solid. `cuts`: planes that keep the part inside them (of a torus only; see SolidPart). `faces`:
+/// the faces of an arb, if they are known.
 SolidBoxes solid_boxes(const Shape& shape, const Matrix& matrix, const std::vector<Plane>& cuts = {},
                        const ArbFaces* faces = nullptr);
 

@@ -1,4 +1,4 @@
-// Boxes of solids of a closed form. Solids whose extent has none: blobs.cpp.
+// Boxes of solids whose extent has a closed form; blobs.cpp has the others.
 #include <algorithm>
 #include <cmath>
 
@@ -24,7 +24,7 @@ long double hyperbola_support(long double q, long double z, long double c) {
     return zeta < 1 + c ? z * (1 + c) - c * std::sqrt(steep) : q;
 }
 
-/// The most of a x + b y over x^p + y^p <= 1. Up to p = 1 the maximum is at a corner, (1, 0) or (0, 1).
+/// The maximum of a x + b y over x^p + y^p <= 1. Up to p = 1 it is at a corner, (1, 0) or (0, 1).
 long double dual_norm(long double a, long double b, long double p) {
     const long double larger = std::max(a, b), smaller = std::min(a, b);
     if (!(p > 1) || smaller == 0) return larger;
@@ -78,7 +78,7 @@ Box Tight::operator()(const Part& s) const {
                   box_around(transform_point(m, wide(s.v) + wide(s.h)), static_cast<long double>(s.r_h) * ball));
 }
 
-// The gauge is one norm within another: the support is one dual norm within the other.
+// The solid's equation is one norm within another, so the support is one dual norm within another.
 Box Tight::operator()(const Superell& s) const {
     return support_box(
         m, wide(s.v), {wide(s.a), wide(s.b), wide(s.c)}, [&](long double x, long double y, long double z) {

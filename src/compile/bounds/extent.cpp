@@ -12,19 +12,19 @@ namespace csgrt {
 
 namespace {
 
-/// Boxes are padded for rounding.
+/// The largest coordinate of a box, with a margin for the boxes' padding.
 constexpr double most = Limits::length * (1 + 1e-6);
 
-/// The fault of a solid's size or position; empty: none. A comparison with NaN is false, and so a fault.
+/// The fault of a solid's size or position; empty: there is none. A NaN is a fault, because comparisons with a NaN are
+/// false.
 std::string extent_fault(const Shape& shape, const Matrix& matrix, const Box& box) {
     if (const auto* half = std::get_if<Half>(&shape)) {
         const double distance = std::abs(transform_plane(matrix, half->plane).distance);
         if (distance <= most) return {};
         return "lies " + rounded_text(distance) + " mm from the origin where it stands; " + length_limit();
     }
-    const bool is_open =
-        std::holds_alternative<Arb>(shape) || std::holds_alternative<Arbn>(shape);  // the faces of an arb may enclose
-                                                                                    // nothing
+    // The faces of an arb may leave the solid unbounded.
+    const bool is_open = std::holds_alternative<Arb>(shape) || std::holds_alternative<Arbn>(shape);
     const double far = std::max(largest(box.low), largest(box.high));
     if (!(far <= most) && !(is_open && std::isinf(far)))
         return "reaches to " + rounded_text(far) + " mm from the origin where it stands; " + length_limit();

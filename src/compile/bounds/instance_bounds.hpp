@@ -1,4 +1,4 @@
-// Bounds of instances: boxes and faces, computed first and once for all steps that need them.
+// Bounds of instances: boxes and faces, which are computed once for all later steps of the compilation.
 #pragma once
 
 #include <span>
@@ -11,15 +11,15 @@
 
 namespace csgrt {
 
-/// The boxes of all instances, and the faces of the arbs among them. Later steps of the compilation read them and
-/// compute none.
+/// The boxes of all instances, and the faces of the arbs among them. Later steps only read them.
 class Measured {
 public:
     /// Measures all instances, on several threads.
     Measured(const Scene& scene, const FlatScene& flat);
 
     std::vector<Box> boxes, brlcad_boxes;  ///< one an instance; see SolidBoxes
-    /// The faces of an instance that is an arb. The box needs them, too, and long double is slow, so they are kept.
+    /// The faces of an instance that is an arb. They are kept from the computation of the box, because long double is
+    /// slow.
     std::span<const Plane> faces(std::size_t instance) const;
 
 private:

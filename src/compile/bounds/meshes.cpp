@@ -8,8 +8,8 @@ namespace csgrt {
 
 namespace {
 
-/// The box around points that `each` hands over, one by one. `own` transforms them to the solid's space. Without points
-/// the solid is never hit, and any position will do.
+/// The box around the points that `each` passes to its argument. `own` transforms points to the solid's space. A solid
+/// without points is never hit, so any position serves.
 template <class Each>
 Box box_of(const Matrix& m, const Matrix& own, const Each& each) {
     Box box = empty_box;
@@ -27,7 +27,7 @@ Box Tight::operator()(const Bot& s) const {
             for (const std::uint32_t corner : face) point(s.vertices[corner]);
     });
     if (s.mode == Bot::Mode::volume || s.thickness.empty()) return box;
-    // A plate extends this far along its normals, and farther along a ray that grazes it.
+    // A plate extends along its normals by its thickness; along a ray that grazes it, the plate extends farther.
     const long double thickest = *std::max_element(s.thickness.begin(), s.thickness.end());
     const Wide reach = thickest * half_size(linear_part(m));
     return {narrow(wide(box.low) - reach), narrow(wide(box.high) + reach)};

@@ -1,6 +1,6 @@
 // Boxes of convex polyhedra.
 //
-// A few planes: every pair of planes meets in a line, and the part of it that all other planes leave is an edge.
+// A few planes: every two planes meet in a line, and the part of the line inside all other planes is an edge.
 //
 // Many planes: linear programming in three variables, after Seidel (1991). Planes are added one by one in random order.
 // A plane that the best point so far satisfies changes nothing. Otherwise the new best point lies on the plane, and is
@@ -20,12 +20,12 @@ namespace {
 
 // The number of planes up to which n^3 is less than the cost of linear programming.
 constexpr std::size_t few = 16;
-// A limit relative to distances: an edge this far outside a plane is on it.
+// A limit relative to distances: an edge that is no farther outside a plane counts as on the plane.
 constexpr double on_edge = 1e-12;
-// A limit relative to the cube: a point this far outside a plane is on it.
+// A limit relative to the cube: a point that is no farther outside a plane counts as on the plane.
 constexpr long double on_plane = 1e-15L;
-// The angle (radians) below which two planes count as parallel: their intersection is noise, and the box is the larger
-// for it.
+// The angle (radians) below which two planes count as parallel: their intersection is noise, and is left out, so the
+// box is larger.
 constexpr double parallel = 1e-10;
 
 /// A constraint sum n_i x_i <= d over N variables.
@@ -44,7 +44,8 @@ long double dot(const std::array<long double, N>& a, const std::array<long doubl
     return sum;
 }
 
-/// The border of a constraint. On it variable k, the one with the largest coefficient, follows from the others.
+/// The border of a constraint. On the border variable k, which has the largest coefficient, follows from the other
+/// variables.
 template <std::size_t N>
 struct Border {
     Constraint<N> c;
@@ -79,8 +80,8 @@ struct Border {
     }
 };
 
-/// Appends a constraint with a normal of about unit length. False if it cannot be satisfied; nothing is appended if it
-/// always holds.
+/// Appends a constraint with a normal of about unit length. Returns false if the constraint cannot be satisfied.
+/// Appends nothing if the constraint always holds.
 template <std::size_t N>
 bool append(std::vector<Constraint<N>>& constraints, Constraint<N> c, long double reach) {
     const long double square = dot(c.n, c.n);
@@ -94,7 +95,7 @@ bool append(std::vector<Constraint<N>>& constraints, Constraint<N> c, long doubl
     return true;
 }
 
-/// The point of the cube |x_i| <= reach that satisfies the constraints and goes farthest along `aim`.
+/// The point of the cube |x_i| <= reach that satisfies the constraints and is farthest along `aim`.
 template <std::size_t N>
 std::optional<Point<N>> farthest(const std::vector<Constraint<N>>& constraints, const Point<N>& aim,
                                  long double reach) {
@@ -207,7 +208,8 @@ Box polyhedron_box(const std::vector<Plane>& planes, const Vec3& near) {
         std::swap(shuffled[i - 1], shuffled[(random >> 33) % i]);
     }
 
-    // Vertices may lie far beyond the feet of the planes, where the planes meet at a small angle.
+    // Where planes meet at a small angle, vertices may lie far beyond the points of the planes that are nearest to the
+    // origin.
     long double foot = 0;
     for (const Plane& plane : planes) foot = std::max(foot, static_cast<long double>(std::fabs(plane.distance)));
     const long double reach = 1e6L * (foot > 0 ? foot : 1);

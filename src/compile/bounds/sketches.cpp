@@ -53,7 +53,7 @@ Box Tight::operator()(const Ebm& s) const {
     const std::vector<StraightLine> lines = cell_outline(s);
     return prism_box(transform_point(m, transform_point(s.matrix, Wide(0))), to_world(Wide(1, 0, 0)),
                      to_world(Wide(0, 1, 0)), to_world(Wide(0, 0, s.height)), [&](long double a, long double b) {
-                         Interval reach{0, 0};  // without cells any position will do
+                         Interval reach{0, 0};  // without cells any position serves
                          bool first = true;
                          for (const StraightLine& line : lines)
                              for (const long double at : {a * line.u0 + b * line.v0, a * line.u1 + b * line.v1}) {
@@ -65,7 +65,8 @@ Box Tight::operator()(const Ebm& s) const {
                      });
 }
 
-/// The profile is farthest in each direction at the angle of the turn that is nearest to the direction.
+/// In each direction the solid's farthest point is on the profile at the angle of the turn that is nearest to this
+/// direction.
 Box Tight::operator()(const Revolve& s) const {
     const std::vector<BezierCurve> curves = turned_curves(s.sketch);
     const AxisFrame axes = axis_frame(s);

@@ -1,4 +1,4 @@
-// Support: a box from a solid's support function, its extent in six directions.
+// Support box: the box of a solid, from its support function (its extent in a direction) in six directions.
 #pragma once
 
 #include "compile/linear.hpp"

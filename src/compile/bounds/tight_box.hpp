@@ -10,9 +10,9 @@
 
 namespace csgrt {
 
-/// Half the size of an ellipsoid's box: columns are its semi-axes. An ellipse has a zero column.
+/// Half the size of an ellipsoid's box. The columns of `axes` are the semi-axes; for an ellipse one column is 0.
 inline Wide half_size(const WideMatrix& axes) {
-    // Most axes are parallel to the world's, and a division by the largest of three takes long.
+    // Most axes are parallel to the world's, and hypot of three numbers takes long.
     const auto length = [](long double x, long double y, long double z) {
         const int parts = (x != 0) + (y != 0) + (z != 0);
         return parts > 1 ? std::hypot(x, y, z) : std::fabs(x + y + z);

@@ -1,5 +1,6 @@
-// Building from the top down: each range of boxes is cut in two (split.hpp). Ranges of many boxes go to a common queue;
-// a smaller range is one task. Its size alone decides, so the result does not depend on the number of threads.
+// The hierarchy is built from the top down: each range of boxes is cut in two (split.hpp). The halves of a large range
+// are put into a common queue; a smaller range is built by one task. Only the size of a range decides this, so the
+// result does not depend on the number of threads.
 #include "compile/bvh/build.hpp"
 
 #include <algorithm>
@@ -36,7 +37,7 @@ float above(double value) {
 
 using BoxOf = std::function<Box(std::size_t)>;
 
-/// Builds the hierarchy on several threads. Tasks are kept in a queue; each writes its nodes into its own part of the
+/// Builds the hierarchy on several threads. Tasks wait in a queue. Each task writes its nodes into its own part of the
 /// result, and the gaps between the parts are closed at the end.
 class Builder {
 public:
@@ -48,10 +49,9 @@ private:
     /// A range of many boxes, and the result of its task.
     struct Task {
         Range range;
-        std::uint32_t place;                      ///< index of its first node, with room before it for as many nodes as
-                                                  ///< there can be
+        std::uint32_t place;  ///< index of the first node; every task has the memory that it may need at most
         std::uint32_t left = none, right = none;  ///< tasks; none: this task has built the whole range
-        std::uint32_t nodes = 0;                  ///< built by this task; their `skip` counts from the first of them
+        std::uint32_t nodes = 0;  ///< built by this task; their `skip` counts from the task's first node
     };
 
     kernel::BvhNode node(const Range& range) const;
@@ -105,12 +105,12 @@ kernel::BvhNode Builder::node(const Range& range) const {
     return result;
 }
 
-/// Builds a range in depth-first order: a node comes before its children, the left child right after it. `right`:
+/// Builds a range in depth-first order: a node comes before its children, and the left child is the next node. `right`:
 /// memory for the index of each node's right child; none: a leaf.
 void Builder::build_whole(Task& task, std::vector<std::uint32_t>& right) {
     struct Open {
         Range range;
-        std::uint32_t parent;  // of a right child, whose index it needs
+        std::uint32_t parent;  // the parent of a right child, which needs the child's index
     };
     kernel::BvhNode* const nodes = nodes_.data() + task.place;
     right.clear();
@@ -190,7 +190,7 @@ void Builder::work() {
 void Builder::join() {
     struct Open {
         std::uint32_t task;
-        std::uint32_t close;  // the node whose subtree ends here, if there is no task
+        std::uint32_t close;  // if there is no task: the node whose subtree ends here
     };
     std::vector<Open> open{{0, none}};
     std::uint32_t first = 0;

@@ -1,4 +1,4 @@
-// Building the bounding volume hierarchy that culling, kernel 1 and first hits walk.
+// Build: builds the bounding volume hierarchy that culling, kernel 1 and first hits walk.
 #pragma once
 
 #include <cstddef>
@@ -16,13 +16,14 @@ struct Hierarchy {
     std::vector<std::uint32_t> order;    ///< boxes in the order of the leaves
 };
 
-/// The padding of boxes, in parts of the radius, all around. The slab test of kernels/shared/slab.h takes the ray's
-/// origin within one radius of the centre. Its roundings to float displace a side by less than half of the padding.
+/// The padding of boxes on all sides, relative to the radius. The slab test of kernels/shared/slab.h moves the ray's
+/// origin to within one radius of the centre. There rounding to float displaces a side by less than half of the
+/// padding.
 inline constexpr double bvh_padding = 1.0 / (1 << 20);
 
 /// Builds the hierarchy by the binned surface area heuristic, with 1 to 4 boxes a leaf. Several threads may call
-/// `box_of(i)`, for i < count < 2^28, at once. `center` and `radius` are of a sphere around all boxes. The i-th box of
-/// the order gets the number first_solid + i. `threads` (0: as many as there are processors) changes only the time.
+/// `box_of(i)`, for i < count < 2^28, at once. `center` and `radius` describe a sphere around all boxes. The i-th box
+/// of the order gets the number first_solid + i. `threads` (0: as many as there are processors) changes only the time.
 Hierarchy build_bvh(std::size_t count, const std::function<Box(std::size_t)>& box_of, const Vec3& center, double radius,
                     std::uint32_t first_solid, unsigned threads = 0);
 

@@ -11,7 +11,7 @@ namespace csgrt {
 
 namespace {
 
-/// The sphere around all bounded solids, from the box around their boxes. Returns whether all are bounded.
+/// The sphere around all bounded solids, from the box around their boxes. Returns whether all solids are bounded.
 bool set_sphere(const std::vector<Box>& boxes, Space& space) {
     struct Part {
         Box box = empty_box;
@@ -48,9 +48,9 @@ void set_box(kernel::BvhNode& node, const kernel::BvhNode& a, const kernel::BvhN
     }
 }
 
-/// The hierarchy without the leaves of which no solid is wanted. `first`: the number of the first solid.
+/// The hierarchy without the leaves that have no wanted solid. `first`: the number of the first solid.
 Nodes pruned(Nodes nodes, std::uint32_t first, const std::vector<bool>& wanted) {
-    std::vector<std::uint32_t> sizes(nodes.size());  // of the rest of each subtree
+    std::vector<std::uint32_t> sizes(nodes.size());  // nodes that are kept of each subtree
     for (std::size_t i = nodes.size(); i-- > 0;) {
         kernel::BvhNode& node = nodes[i];
         if (node.leaf) {

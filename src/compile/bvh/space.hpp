@@ -1,4 +1,4 @@
-// Space: the positions of solids. It has the sphere around them, their order and their hierarchy.
+// Space: finds the sphere around all solids, their order and their hierarchy.
 #pragma once
 
 #include <cstdint>
@@ -14,9 +14,9 @@ struct NumberedSpace {
     std::vector<std::uint32_t> order;  ///< the instances as solids are numbered
 };
 
-/// Numbers the solids and builds their hierarchy. `boxes`: one an instance, infinite for the unbounded; the sphere is
-/// around the others. `ray_boxes`: as in Clipped. Solids that no ray has to meet are left out of the hierarchy, but
-/// keep their numbers.
+/// Numbers the solids and builds their hierarchy. `boxes`: one an instance, infinite for unbounded solids; the sphere
+/// is around the bounded solids. `ray_boxes`: as in Clipped. Solids that no ray has to meet are left out of the
+/// hierarchy, but keep their numbers.
 NumberedSpace space_of(const std::vector<Box>& boxes, const std::vector<Box>& ray_boxes);
 
 /// The index of the first leaf with a solid that starts a term, or the number of nodes.

@@ -42,7 +42,7 @@ private:
     Quad low_, per_length_;
 };
 
-/// A cut: boxes whose middle along `axis` falls in a bin below `bin` go left. axis < 0: there is no cut.
+/// A cut: boxes whose middle along `axis` is in a bin below `bin` are the left side. axis < 0: there is no cut.
 struct Cut {
     int axis = -1;
     std::size_t bin = 0;
@@ -71,7 +71,7 @@ Cut best_cut(const std::vector<FloatBox>& boxes, const Range& range, const Bins&
         std::array<double, bins> left_cost{};
         FloatBox box = nothing;
         std::size_t count = 0;
-        // A bin without boxes does not change the sides, so the cost stays.
+        // A bin without boxes does not change the sides, so the cost is the same.
         for (std::size_t bin = 1; bin < bins; ++bin) {
             left_cost[bin] = left_cost[bin - 1];
             if (binned[bin - 1].count == 0) continue;
@@ -93,7 +93,7 @@ Cut best_cut(const std::vector<FloatBox>& boxes, const Range& range, const Bins&
     return best;
 }
 
-/// Moves the boxes that go left to the front, and measures both sides.
+/// Moves the boxes of the left side to the front, and measures the two sides.
 std::size_t part(std::vector<FloatBox>& boxes, const Range& range, const Cut& cut, const Bins& bin_of, Range& left,
                  Range& right) {
     left.box = left.middles = right.box = right.middles = nothing;
@@ -113,7 +113,7 @@ std::size_t part(std::vector<FloatBox>& boxes, const Range& range, const Cut& cu
     }
 }
 
-/// Leaves the boxes in the order of the best axis; `bin` is the number of boxes that go left.
+/// Sorts the boxes along the best axis. `bin` of the result is the number of boxes on the left side.
 Cut best_cut_of_few(std::vector<FloatBox>& boxes, const Range& range) {
     std::array<FloatBox, few> ordered;
     std::array<FloatBox, few> best_order;

@@ -1,5 +1,6 @@
-// Splitting a range of boxes in two by the surface area heuristic, among the borders of bins; a few boxes are sorted
-// and every cut is tried. Boxes are moved, not referred to, so that all passes run through memory in sequence.
+// Split: splits a range of boxes in two by the surface area heuristic. Cuts are tried at the borders of bins; a few
+// boxes are sorted, and every cut is tried. Boxes are moved, not referred to, so that all passes run through memory in
+// sequence.
 #pragma once
 
 #include <cstddef>
@@ -8,8 +9,8 @@
 
 namespace csgrt::bvh {
 
-/// Four floats, so that a compiler makes one instruction for them. The last float of `low` and of `high` is a part of
-/// the box's number, which a float holds exactly; arithmetic on it has no meaning.
+/// Four floats, for which a compiler makes one instruction. The last float of `low` and of `high` is a part of the
+/// box's number, which a float holds exactly; arithmetic on it has no meaning.
 struct alignas(16) Quad {
     float v[4];
 };
@@ -44,7 +45,8 @@ struct Range {
 /// Measures the boxes of a range.
 void measure(const std::vector<FloatBox>& boxes, Range& range);
 
-/// Moves the boxes of a range so that those of `left` come first, and measures both sides. False: the range is a leaf.
+/// Moves the boxes of a range so that the boxes of `left` come first, and measures the two sides. Returns false if the
+/// range is a leaf.
 bool split(std::vector<FloatBox>& boxes, const Range& range, Range& left, Range& right);
 
 }  // namespace csgrt::bvh

@@ -1,5 +1,5 @@
-// Table of appearances that a scene gives single regions, or all regions below a path, in place of their combinations'
-// colours and finish.
+// Table of appearances: a scene may give a region, or all regions below a path, an appearance in place of the colours
+// and finish of combinations.
 #pragma once
 
 #include <cstdint>
@@ -11,13 +11,13 @@
 
 namespace csgrt {
 
-/// Finds the appearances of regions by path. It refers to the scene's list.
+/// The table finds the appearances of regions by path. It refers to the scene's list.
 class AppearanceTable {
 public:
     explicit AppearanceTable(const std::vector<Look>& looks);
     /// The numbers of the entries that concern a region, ascending.
     std::vector<std::uint32_t> find(std::string_view path) const;
-    /// Applies to a region, whose path is known, the entries that concern it.
+    /// Applies to a region, whose path is set, the entries that concern it.
     void apply(RegionInfo& region) const;
 
 private:

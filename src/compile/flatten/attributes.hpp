@@ -9,8 +9,8 @@
 
 namespace csgrt {
 
-/// The attributes that the combinations above have set. A combination sets its own, unless one above has set it and
-/// wants it inherited.
+/// The attributes that the combinations above have set. A combination sets its attributes, except those that a
+/// combination above has set and wants to be inherited.
 struct Attributes {
     std::optional<Vec3> color;
     const Finish* finish = nullptr;  ///< in the scene
@@ -22,7 +22,7 @@ struct Attributes {
 /// RANK_x, by which regions are numbered.
 std::uint32_t rank_of(const RegionInfo& region);
 
-/// The region's info except path and bounds. A null `region` is a solid outside all regions: all members are 0.
+/// The region's info except path and bounds. A null `region` means a solid outside all regions: then all members are 0.
 /// BRL-CAD's colour table colours a region by its id, unless a combination has given it a colour.
 RegionInfo describe_region(const Combination* region, const Attributes& attributes,
                            const std::vector<RegionColor>& region_colors);

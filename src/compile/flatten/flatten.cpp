@@ -42,7 +42,7 @@ std::vector<std::string> fastgen_regions(const FlatScene& flat) {
     return names;
 }
 
-/// Gives different regions different paths where the members' names do not tell them apart.
+/// Numbers equal paths of different regions, so that all paths differ.
 void tell_apart(std::vector<FlatRegion>& regions) {
     std::unordered_set<std::string> taken;
     std::unordered_map<std::string, std::uint32_t> times;
@@ -55,7 +55,7 @@ void tell_apart(std::vector<FlatRegion>& regions) {
     }
 }
 
-/// Drops instances that only dropped trees used.
+/// Removes instances that only removed trees used.
 void drop_unused(FlatScene& flat) {
     constexpr std::uint32_t unused = 0xffffffff;
     std::vector<std::uint32_t> number(flat.instances.size(), unused);
@@ -100,7 +100,7 @@ const std::vector<Plane>& cuts_of(const FlatScene& flat, const Instance& instanc
 
 namespace {
 
-/// A term of the expression above some regions: a region, unless it turns out to be empty.
+/// A term of the expression above some regions. The term is a region, unless it is found to be empty.
 struct Term {
     const RegionForest* forest;
     std::uint32_t node;
@@ -150,7 +150,7 @@ TermsPart flatten_part(const Source& source, std::span<const Term> terms, std::a
     return part;
 }
 
-/// A term that is not a region, and why.
+/// A term that is not a region, and the reason.
 struct NoRegion {
     std::size_t term;
     bool contains_space;  ///< true: the term holds the space where no solid is; false: it is empty
@@ -158,7 +158,7 @@ struct NoRegion {
     Place place;
 };
 
-/// Parts of a scene, joined in their order.
+/// The joiner appends the parts that threads have flattened to the result, in order.
 class Joiner {
 public:
     Joiner(const Source& source, const std::vector<Term>& terms, FlatScene& result)
@@ -207,7 +207,7 @@ struct NamedObject {
     const std::string& name;
     std::uint32_t object;
     std::unique_ptr<RegionForest> forest;  ///< null: an equal object was named before
-    std::size_t end;                       ///< number behind its last term
+    std::size_t end;                       ///< number after the object's last term
 };
 
 /// The regions that a walk finds.

@@ -90,7 +90,7 @@ void Flattener::push(Value value, Value outside) {
 
 std::uint32_t Flattener::instance_of(std::uint32_t object, std::uint32_t piece, const Matrix& matrix) {
     Matrix place = matrix;
-    for (double& value : place) value += 0.0;  // -0 and 0 are one position
+    for (double& value : place) value += 0.0;  // -0 and 0 are one value
     if (result_.matrices.empty() || result_.matrices.back() != place) result_.matrices.push_back(place);
     result_.leaves.push_back({object, piece, static_cast<std::uint32_t>(result_.matrices.size() - 1)});
     return static_cast<std::uint32_t>(result_.leaves.size() - 1);
@@ -102,7 +102,7 @@ void Flattener::operate(Operator op, std::size_t arity) {
     const Value value = append_folded(tree_->nodes, first, op, std::span(values_).subspan(base));
     const Value outside = fold(op, std::span(outsides_).subspan(base)).value;
     result_.has_unused = result_.has_unused || (value != Value::tree && end > first);
-    firsts_.resize(base + 1);  // the nodes of the first operand stay
+    firsts_.resize(base + 1);  // the nodes of the first operand are kept
     values_.resize(base);
     values_.push_back(value);
     outsides_.resize(base);

@@ -12,7 +12,7 @@
 
 namespace csgrt {
 
-/// The result of flattening some of a scene's trees. Each thread has its own part.
+/// The result of flattening some trees of a scene. Each thread has its own part.
 struct FlatPart {
     struct Leaf {
         std::uint32_t object, piece, matrix;
@@ -21,15 +21,15 @@ struct FlatPart {
     std::vector<Matrix> matrices;
     std::unordered_map<std::uint32_t, SolidParts> composites;
     std::uint64_t references = 0;  ///< to combinations and solids
-    bool has_unused = false;       ///< leaves that no tree holds any more
+    bool has_unused = false;       ///< there are leaves that no tree uses any more
 };
 
-/// The constants that a term's tree is: `value` everywhere, or `outside` where no solid is.
+/// The constants of a term's tree: `value` if the whole tree is constant, and `outside`, its value where no solid is.
 struct Constants {
     Value value, outside;
 };
 
-/// Writes the tree of one term in postfix order. Operands that are empty, or all of space, are dropped on the way.
+/// Writes the tree of one term in postfix order. Operands that are empty, or all of space, are removed on the way.
 class Flattener {
 public:
     Flattener(const Source& source, FlatPart& result) : source_(source), result_(result) {}

@@ -18,7 +18,7 @@ enum class Value : std::uint8_t { tree, nothing, everything };
 
 /// The result of folding an operator.
 struct Folded {
-    Value value;  ///< tree: `op` over the operands that are trees, in their order
+    Value value;  ///< Value::tree: `op` over the operands that are trees, in their order
     std::size_t trees;
     Operator op;
     bool complement;  ///< of the tree
@@ -52,7 +52,7 @@ inline Folded fold(Operator op, std::span<const Value> operands) {
     }
 }
 
-/// Appends the operator behind its operands, whose nodes begin at `first`; a constant result has no nodes. Returns the
+/// Appends the operator after its operands, whose nodes begin at `first`; a constant result has no nodes. Returns the
 /// result's value.
 inline Value append_folded(std::vector<FlatTree::Node>& nodes, std::size_t first, Operator op,
                            std::span<const Value> operands) {

@@ -10,7 +10,7 @@
 
 namespace csgrt {
 
-/// The instances of a scene, each once.
+/// The table numbers the instances of a scene, each once.
 class InstanceTable {
 public:
     explicit InstanceTable(std::size_t objects) : first_(objects, none) {}
@@ -25,7 +25,7 @@ public:
             all.push_back(instance);
             return next;
         }
-        // The object has several instances: this one is looked up among those that are not the first.
+        // The object has several instances: if it is not the first, it is looked up among the others.
         if (equal(all[first], instance)) return first;
         const std::uint64_t hash = hash_of(instance);
         const std::uint32_t last = cells_.find(hash);

@@ -7,7 +7,7 @@
 
 namespace csgrt {
 
-// The limit: groups of groups hold more references than solids, but not many times more.
+// The limit: groups of groups make more references than solids, but not many times more.
 ReferenceLimit::ReferenceLimit(const Scene& scene, std::uint64_t max_instances)
     : most_(8 * std::max({max_instances, Limits::instances, std::uint64_t{scene.objects.size()}})) {}
 
@@ -144,8 +144,8 @@ void RegionForest::for_each_term(const std::function<void(std::uint32_t)>& call)
     if (root_.value != Value::tree) return;
     std::vector<bool> starts_with_terms(starts_.size());
 
-    // Operators that still have to be applied to a term that is found further down, innermost first: a list that terms
-    // share.
+    // The operators that still have to be applied to a term further down, innermost first. They are a linked list,
+    // whose tail terms share.
     enum class Pending { subtract_right, intersect_right, intersect_left };
     struct Context {
         Pending pending;
@@ -175,7 +175,7 @@ void RegionForest::for_each_term(const std::function<void(std::uint32_t)>& call)
             push(node.left, subtract ? Pending::subtract_right : Pending::intersect_right, node.right, context);
             continue;
         }
-        // A term is complete when the pending operators are applied, until another operand must be taken apart first.
+        // A term is complete when the pending operators are applied, or when another operand must be split first.
         while (context != none) {
             const Context c = contexts[context];
             context = c.outer;

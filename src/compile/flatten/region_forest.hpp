@@ -1,15 +1,15 @@
-// Region forest: which tree belongs to which region, by BRL-CAD's rules.
+// Region forest: finds the regions below a named object and their trees, by BRL-CAD's rules.
 //
-// The walk goes down from a named object. A combination flagged as a region, or a solid, ends it: there a region
-// starts. The combinations above form an expression over such starts. Unions there only collect regions; where another
-// operator stands above regions, unions are pulled up through it until they alone stand on top:
+// The walk goes down from a named object. At a combination that is flagged as a region, or at a solid, the walk ends:
+// there a region starts. The combinations above form an expression over these starts. Unions in it only collect
+// regions. Where another operator is above regions, unions are pulled up through it until all unions are on top:
 //
 //     (A u B) - C  ->  (A - C) u (B - C)
 //     (A u B) + C  ->  (A + C) u (B + C)
 //     C + (A u B)  ->  (C + A) u (C + B)
 //
-// (C - (A u B) stays; xor and complement do not distribute.) Each term is one region. The region's tree is the whole
-// term with the trees of all its starts; everything else comes from its leftmost start.
+// (C - (A u B) is left as it is; xor and complement do not distribute.) Each term is one region. The region's tree is
+// the whole term with the trees of all its starts; its other attributes come from its leftmost start.
 #pragma once
 
 #include <cstdint>
@@ -31,7 +31,7 @@ namespace csgrt {
 class ReferenceLimit {
 public:
     ReferenceLimit(const Scene& scene, std::uint64_t max_instances);
-    /// Throws Error (scene) if the count is more than any model of so many instances has.
+    /// Throws Error (scene) if the count is more than a model of so many instances can have.
     void check(std::uint64_t count) const;
 
 private:
@@ -41,7 +41,7 @@ private:
 /// Throws Error (scene) if the paths of all regions together have too many bytes.
 void check_path_bytes(std::uint64_t bytes);
 
-/// The scene that a walk reads, with tables about it. All of it outlives the reader.
+/// The scene that a walk reads, with tables about it. They must outlive the reader.
 struct Source {
     const Scene& scene;
     const Names& names;
@@ -53,20 +53,21 @@ struct Source {
 struct RegionStart {
     std::uint32_t object;
     std::uint32_t path;   ///< see RegionForest::path
-    std::uint32_t above;  ///< number of the combination that uses it, in RegionForest
+    std::uint32_t above;  ///< number of the combination that uses the object, in RegionForest
     std::uint32_t node;   ///< of the combination's tree
 };
 
-/// The expression over region starts that stands above the regions of one named object.
+/// The expression over region starts above the regions of one named object.
 class RegionForest {
 public:
-    /// Walks down from the object at a path. Throws Error (scene) if there are more references than any model has.
+    /// Walks down from the object at a path. Throws Error (scene) if there are more references than ReferenceLimit
+    /// allows.
     RegionForest(const Source& source, const ObjectPath& object, bool air);
 
     /// The number of solids in the trees of all terms together. Pulling unions up may multiply them.
     double solids_in_terms() const;
 
-    /// A node of the expression. leaf: `left` is a start. Complement: `left` is the operand.
+    /// A node of the expression. In a leaf `left` is a start. In a complement `left` is the operand.
     struct Node {
         Operator op = Operator::leaf;
         std::uint32_t left = 0, right = 0;
@@ -82,16 +83,16 @@ public:
     const Node& node(std::uint32_t number) const { return nodes_[number]; }
     const RegionStart& start(std::uint32_t number) const { return starts_[number]; }
     const RegionStart& leftmost_start(std::uint32_t node) const { return starts_[leftmost(node)]; }
-    /// The object that gives a region its id, air code and so on: the start's own, or the region that the path to the
-    /// named object leads through.
+    /// The object that gives a region its id, air code and so on: the start's object, or the region that contains the
+    /// named object by its path.
     std::uint32_t origin_of(const RegionStart& start) const { return inside_ == none ? start.object : inside_; }
-    /// The matrix of a start, and the attributes that it and all above have set. Left to those who need them, since the
-    /// walk is one thread's.
+    /// The matrix of a start, and the attributes that the start's object and all combinations above have set. They are
+    /// not stored: the threads that need them compute them, since only one thread walks.
     Matrix matrix_of(const RegionStart& start) const;
     Attributes attributes_of(const RegionStart& start) const;
     /// "/top/.../name": the names of the members on the way.
     std::string path(std::uint32_t number) const;
-    /// Whether several terms have one leftmost start, and so one path. Known after for_each_term().
+    /// True if several terms have the same leftmost start, and so the same path. Known after for_each_term().
     bool has_equal_paths() const { return has_equal_paths_; }
 
 private:
@@ -116,12 +117,12 @@ private:
     friend class Walk<Level>;
     struct PathStep {
         std::uint32_t above, object;
-        std::uint32_t node;  ///< the leaf of the tree above that leads here
+        std::uint32_t node;  ///< the leaf, in the tree above, that refers to the object
     };
 
     /// The start at the end of a path, with the combinations above it.
     RegionStart start_of(const ObjectPath& path);
-    /// Visits an object. `start`: has the path of the combination above. Returns the level if the object is a
+    /// Visits an object. `start.path` is the path of the combination above. Returns the level if the object is a
     /// combination to walk.
     std::optional<Level> visit(RegionStart start);
     // The visitor of the walk calls this for each child.

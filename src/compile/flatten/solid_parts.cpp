@@ -9,7 +9,7 @@ namespace csgrt {
 
 namespace {
 
-/// The sine of the angle below which two directions run straight on.
+/// The sine of an angle: two directions with a smaller angle count as one straight line.
 constexpr double straight = 1e-9;
 /// The length of a part of a pipe, relative to its width, below which the part is left out.
 constexpr double shortest = 1e-9;
@@ -40,7 +40,7 @@ SolidPart bend_part(const Bend& bend, double tube) {
             {{-1 * bend.into, -dot(bend.into, bend.from)}, {bend.out, dot(bend.out, bend.to)}}};
 }
 
-/// Collects the parts of a tube: the union of the outer parts, less the union of the inner parts.
+/// The collector makes a tube of its parts: the union of the outer parts minus the union of the inner parts.
 class Collector {
 public:
     void outer(SolidPart part) { add(std::move(part), outer_); }

@@ -1,5 +1,5 @@
-// Conversions of records from double into the precision of the namespace CSGRT_KERNELS, for the one file that includes
-// this: a converter's, or the reference's in that precision.
+// Conversions of records from double into the precision of the namespace CSGRT_KERNELS, for the file that includes this
+// header: a converter, or the reference in this precision.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -27,7 +27,8 @@ using k::wide;
 template <class To, class From>
 using Converted = std::conditional_t<std::is_same_v<To, From>, std::span<const From>, std::vector<To>>;
 
-/// Converts a record: it begins with `numbers` numbers that are `wide`, and its rest is the same in all precisions.
+/// Converts a record: a record begins with `numbers` numbers of type `wide`, and the rest is the same in all
+/// precisions.
 template <class To, std::size_t numbers, class From>
 To converted(const From& record) {
     constexpr std::size_t own = numbers * sizeof(wide), other = numbers * sizeof(double);
@@ -47,8 +48,8 @@ real convert(double x) { return static_cast<real>(x); }
 [[maybe_unused]] k::PlaneRecord convert(const kernel::PlaneRecord& p) { return converted<k::PlaneRecord, 4>(p); }
 [[maybe_unused]] k::LightRecord convert(const kernel::LightRecord& l) { return converted<k::LightRecord, 8>(l); }
 
-// Boxes are larger in single precision. There a ray may meet a solid a little beside its position; with larger boxes a
-// device finds everything that the reference finds.
+// Boxes are larger in single precision, where a ray may meet a solid a little beside the solid's position. With larger
+// boxes a device finds everything that the reference finds.
 [[maybe_unused]] k::BvhNode convert_node(const kernel::BvhNode& n) {
     k::BvhNode node = std::bit_cast<k::BvhNode>(n);
     double diagonal = 0;
@@ -65,9 +66,9 @@ real convert(double x) { return static_cast<real>(x); }
 [[maybe_unused]] k::SolidRecord convert_solid(const kernel::SolidRecord& s, const CompiledScene& scene) {
     k::SolidRecord solid{};
     static_assert(offsetof(k::SolidRecord, alone) == offsetof(kernel::SolidRecord, alone));
-    std::memcpy(&solid, &s, sizeof s);  // the center stands behind
+    std::memcpy(&solid, &s, sizeof s);  // the center comes after these members
 #ifdef CSGRT_EYE_RELATIVE
-    if (s.type != SOLID_ARB && s.type != SOLID_HALF)  // all others begin with their center
+    if (s.type != SOLID_ARB && s.type != SOLID_HALF)  // the reals of all other types begin with their center
         for (std::size_t i = 0; i < 3; ++i) solid.center[i] = scene.reals[s.first_real + i];
 #endif
     (void)scene;

@@ -1,5 +1,5 @@
-// Record converter: turns a compiled scene, frames and rays into the bytes that a device's kernels read, in their
-// precision, and what kernels write back into records in double.
+// Record converter: converts a compiled scene, frames and rays to the bytes that a device's kernels read, in the
+// kernels' precision. It converts the kernels' results back to records in double.
 #pragma once
 
 #include <cstddef>
@@ -14,8 +14,8 @@
 
 namespace csgrt {
 
-/// The records of one precision (double, single, single in the world's coordinates), each of which is one
-/// implementation. Devices use it to convert tables, frames and rays to bytes, and results back to double.
+/// The converter of records for one precision. There is an implementation for each precision: double, single, and
+/// single in the world's coordinates.
 class RecordConverter {
 public:
     virtual ~RecordConverter() = default;

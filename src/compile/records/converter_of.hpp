@@ -1,5 +1,5 @@
-// The converter into the precision of the namespace CSGRT_KERNELS, made by CSGRT_MAKE_CONVERTER. This is the body of
-// the one file that includes it.
+// The converter into the precision of the namespace CSGRT_KERNELS, made by CSGRT_MAKE_CONVERTER. The .cpp file of a
+// precision defines these macros and includes this header, which has all the code.
 #include "compile/records/conversions.hpp"
 #include "compile/records/converter.hpp"
 

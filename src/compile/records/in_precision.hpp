@@ -1,6 +1,6 @@
-// The kernels' records once more, in the namespace CSGRT_KERNELS and with CSGRT_NUMBERS, for the one file that includes
-// this. The headers that src/compile has included in double come first, and their guards are lifted. Numbers of many
-// kinds meet in this source, and warnings about narrowing would be about the other kinds.
+// The kernels' records once more, in the namespace CSGRT_KERNELS and with CSGRT_NUMBERS, for the file that includes
+// this header. The headers that src/compile includes in double come first, and their guards are lifted. Warnings about
+// narrowing are off, because this source is compiled for several types of numbers.
 #include <cmath>
 #include <limits>
 

@@ -16,7 +16,7 @@ CompiledScene claimed_by(const CompiledScene& scene, std::vector<std::uint8_t> c
         for (std::uint32_t i = solid.first_start; i < solid.first_start + solid.start_count; ++i)
             if (claims[scene.starts[i].region]) starts.push_back(scene.starts[i]);
         const auto count = static_cast<std::uint32_t>(starts.size()) - first;
-        // The claim of the solid alone is known if all or none of its terms are left. `begins` may have more bits than
+        // `alone` is still known if all of the solid's terms are left, or none. `begins` may have more bits than
         // needed.
         if (count < solid.start_count) solid.alone = count == 0 ? NONE : ALONE_UNKNOWN;
         solid.first_start = first;

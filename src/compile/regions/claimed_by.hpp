@@ -1,4 +1,4 @@
-// Claims of some regions: a compiled scene of which only these claim partitions.
+// Claimed by: makes a compiled scene in which only some regions claim partitions.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 namespace csgrt {
 
 /// Returns a scene with the same regions, trees and solids under the same numbers. Regions with `claims` 0 claim
-/// nothing, as if they were not there. The result shares everything except the solids' records and the starts.
+/// nothing, as if they did not exist. The result shares everything except the solids' records and the starts.
 CompiledScene claimed_by(const CompiledScene& scene, std::vector<std::uint8_t> claims);
 
 }  // namespace csgrt

@@ -1,12 +1,12 @@
-// Linearizing a tree. Each operand on the stack is one of
+// Linearizing: turns a tree into a balanced binary tree. Each operand on the stack is one of
 //
 //     any of p      all of p, none of n      an odd number of p
 //
 // where p and n are lists of finished binary nodes, or the complement of such a set. Unions, intersections and
 // differences all come from "all of p, none of n" by de Morgan's laws, so chains of one kind become one list,
-// complements move upward until they vanish, and x - (y - z) or x + !y need no special case. A list is finished as a
-// balanced tree, whatever chain the model has, so that the walk's way to any leaf is short. Lists are linked: joining
-// two takes no time, however long a chain of the model is.
+// complements move upward until they vanish, and x - (y - z) or x + !y need no special case. At last a list becomes a
+// balanced tree, so the walk to any leaf is short, however long the model's chain is. Lists are linked, so joining two
+// lists takes constant time.
 
 #include "compile/regions/linearize.hpp"
 
@@ -89,7 +89,7 @@ std::uint32_t Linearizer::add_leaf(std::uint32_t solid) {
     return static_cast<std::uint32_t>(nodes_.size() - 1);
 }
 
-// The stack's size: the way into a left child is pushed, the way into a right child is not.
+// The size of the walk's stack: the walk pushes an entry for a left child, but not for a right child.
 std::uint32_t Linearizer::add_node(std::uint32_t op, std::uint32_t left, std::uint32_t right) {
     nodes_.push_back({op, left, right, std::max(nodes_[left].stack + 1, nodes_[right].stack)});
     return static_cast<std::uint32_t>(nodes_.size() - 1);
@@ -100,8 +100,9 @@ std::uint32_t Linearizer::add_difference(std::uint32_t from, std::uint32_t what)
     return add_node(OP_REVERSE_DIFFERENCE, what, from);
 }
 
-/// Joins all members under one operator. Those with the least stacks are joined first. So the way to each member is
-/// short and, because only two equal stacks make one of one more, no tree of n leaves needs more than log2(n) entries.
+/// Joins all members under one operator. The members with the smallest stacks are joined first. So the path to each
+/// member is short. Only two equal stacks make a stack that is one entry larger, so no tree of n leaves needs more than
+/// log2(n) entries.
 std::uint32_t Linearizer::join(std::uint32_t op, const List& list) {
     using Member = std::tuple<std::uint32_t, std::uint32_t, std::uint32_t>;  // stack, order of arrival, node
     std::priority_queue<Member, std::vector<Member>, std::greater<>> members;
@@ -205,7 +206,7 @@ LinearTree Linearizer::write(std::uint32_t root, std::vector<std::uint32_t>& wor
     result.first_word = static_cast<std::uint32_t>(words.size());
     result.stack = nodes_[root].stack;
     struct Task {
-        std::uint32_t node, parent;  // parent: the word that waits for this node's position
+        std::uint32_t node, parent;  // parent: the word that gets this node's position
     };
     std::vector<Task> tasks{{root, none}};
     while (!tasks.empty()) {

@@ -1,4 +1,4 @@
-// Linearizing trees: makes 32-bit words, for the walk of the kernels (layout.h says how a word reads).
+// Linearizing trees: makes the 32-bit words that the kernels walk (layout.h has the format of a word).
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ struct LinearTree {
 };
 
 /// Appends the tree to `words`. The tree must be false where no solid is. A tree without nodes has no words. Throws
-/// Error (scene) if it does not fit 29 bits of position or of solid.
+/// Error (scene) if a position or a solid's number does not fit 29 bits.
 LinearTree linearize(const FlatTree& tree, std::vector<std::uint32_t>& words);
 
 /// Throws the same error if the trees of all regions have too many words together.

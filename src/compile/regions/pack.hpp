@@ -16,7 +16,7 @@ struct PackedRegions {
 };
 
 /// Packs the regions. `order`: the instances as solids are numbered; `brlcad_boxes`: one an instance; `trees`: the
-/// trees to make terms of, see Clipped.
+/// trees from which terms are made, see Clipped.
 PackedRegions pack_regions(const FlatScene& flat, const std::vector<FlatTree>& trees,
                            const std::vector<std::uint32_t>& order, const std::vector<Box>& brlcad_boxes);
 

@@ -13,8 +13,8 @@ namespace kernel {
 
 namespace {
 
-/// Builds the status trees of all regions. Each tree is cut into paths by the sizes of its subtrees, and each path
-/// becomes a balanced tree of clusters.
+/// The builder makes the status trees of all regions. Each tree is cut into paths by the sizes of its subtrees, and
+/// each path becomes a balanced tree of clusters.
 class Builder {
 public:
     explicit Builder(const CompiledScene& scene) : scene_(scene) {}
@@ -28,12 +28,13 @@ public:
     }
 
 private:
-    /// An item of a path: the leaf at its end, or an operator's smaller operand and the effect of the operator on the
-    /// larger one.
+    /// An item of a path: the leaf at the path's end, or the smaller operand of an operator and the operator's effect
+    /// (RAKE_x) on the path.
     struct Item {
         std::uint32_t node, rake;
     };
-    /// A subtree, which is a path of its own with `cluster` as its root. `rake`: the effect of its value on the parent.
+    /// A subtree, which is another path with `cluster` as its root. `rake`: the effect of the subtree's value on the
+    /// parent.
     struct Subtree {
         std::uint32_t node, cluster, rake;
     };
@@ -101,8 +102,8 @@ private:
     void split(const Range& range) {
         const auto weight = [&](std::size_t i) { return weights_[i] - weights_[range.first]; };
         const auto total = weight(range.end);
-        std::size_t low = range.first + 1, high = range.end - 1;  // the first position with half of the weight before
-                                                                  // it
+        std::size_t low = range.first + 1,
+                    high = range.end - 1;  // searched: the first position with half of the weight before it
         while (low < high) {
             const std::size_t middle = (low + high) / 2;
             if (2 * weight(middle) < total)
@@ -135,7 +136,8 @@ private:
                 leaf.cluster << 2 | (kernel::raked(leaf.rake, 0) ^ kernel::raked(leaf.rake, 3));
     }
 
-    /// Computes the functions where no solid covers. Pairs come behind their parents.
+    /// Computes the functions where no solid covers. The loop goes from the last pair to the first, because parents
+    /// have greater numbers.
     void find_outside() {
         auto& outside = result_.outside;
         outside.assign((2 * result_.links.size() + 15) / 16, 0);

@@ -1,4 +1,5 @@
-// Terms of trees: which solids start each, and its value when others cover a partition, too. layout.h explains terms.
+// Terms of trees: finds the solids that start each term, and the value of a term where one solid alone covers. layout.h
+// explains terms.
 
 #include "compile/regions/terms.hpp"
 
@@ -38,7 +39,7 @@ void add_terms(const std::vector<std::uint32_t>& trees, const RegionWords& recor
     }
 }
 
-/// The roles of solids in a term, see layout.h. A solid without a single role is undecided.
+/// The roles of solids in a term, see layout.h. A solid with several roles is undecided.
 class Roles {
 public:
     Roles(const std::vector<std::uint32_t>& trees, std::uint32_t first, std::uint32_t end) : trees_(trees) {
@@ -84,7 +85,8 @@ public:
         entries_.resize(kept);
     }
 
-    /// Writes a table of at least twice as many entries as needed, so that a missing solid is soon found to be missing.
+    /// Writes a table of at least twice as many entries as needed, so that the search for a solid that is not in the
+    /// table ends soon.
     void write(std::vector<std::uint32_t>& words) const {
         std::uint32_t bits = 1, needed = 0;
         while ((1u << bits) < 2 * entries_.size()) ++bits;
@@ -112,22 +114,22 @@ private:
     bool needs_undecided_ = false;
 };
 
-/// The value of a term where a solid alone covers a partition. Unknown: the solid stands in the term more than once.
+/// The value of a term where a solid alone covers a partition. unknown: the solid is in the term more than once.
 enum class Alone : std::uint8_t { no, holds, unknown };
 
-/// Some terms, as one thread lists them.
+/// The lists that one thread makes for some terms.
 struct TermChunk {
     std::vector<kernel::StartRecord> records;
     std::vector<std::uint32_t> starts;  ///< the solids that start each term, each once
-    std::vector<Alone> alone;           ///< the term's value where that solid alone covers
-    std::vector<std::uint32_t> ends;    ///< one a term, index into the lists
+    std::vector<Alone> alone;  ///< one for each element of `starts`: the term's value where this solid alone covers
+    std::vector<std::uint32_t> ends;  ///< one a term: where the term's elements end in the lists
     std::vector<std::pair<std::uint32_t, bool>>
         leaves;                 ///< of one term: solid, and whether the term is true where the solid alone covers
-    std::vector<bool> is_true;  ///< one for each of its words so far
+    std::vector<bool> is_true;  ///< of one term, one for each word
 };
 
-/// Finds whether the term holds where each of its starts, from `first` on, alone covers: then one of an operator's two
-/// operands is empty. The linearizer leaves no complements.
+/// Finds for each of the term's starts, from `first` on, whether the term holds where this solid alone covers. There
+/// each operator has at least one empty operand. Linearized trees have no complements.
 void add_alone(const std::vector<std::uint32_t>& trees, const Term& term, std::size_t first, TermChunk& chunk) {
     auto& leaves = chunk.leaves;
     auto& is_true = chunk.is_true;
@@ -154,11 +156,11 @@ void add_alone(const std::vector<std::uint32_t>& trees, const Term& term, std::s
     }
 }
 
-/// Lists the starts of a term. `halves`: whether each solid is a half-space, which nearly every ray meets. An
-/// intersection is started by the operand with fewer half-spaces, or, if equal, with fewer leaves.
+/// Lists the starts of a term. `halves`: whether each solid is a half-space, which nearly every ray meets. The starts
+/// of an intersection are the starts of the operand with fewer half-spaces or, if equal, with fewer leaves.
 void add_starts(const std::vector<std::uint32_t>& trees, const Term& term, const std::vector<bool>& halves,
                 TermChunk& chunk) {
-    // Lists of leaves are linked: nodes, by their position in the term.
+    // A part's starts are a linked list of nodes; `next` has a link for each word of the term.
     struct Part {
         std::uint32_t first, last;
         std::uint32_t halves, leaves;
@@ -229,7 +231,8 @@ void claim_alone(const Logic& logic, kernel::SolidRecord& solid, Alone alone, st
     }
 }
 
-/// Gives each solid as much of a table as it counts, and sets the counts to 0. Returns the size of the table.
+/// Gives each solid a range of a table, of the size of its count, and sets the counts to 0. Returns the size of the
+/// table.
 std::uint32_t lay_out(std::vector<kernel::SolidRecord>& solids, std::uint32_t kernel::SolidRecord::*first,
                       std::uint32_t kernel::SolidRecord::*count) {
     std::uint32_t total = 0;

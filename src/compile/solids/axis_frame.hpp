@@ -23,8 +23,8 @@ inline AxisFrame axis_frame(const Revolve& s) {
 }
 
 /// The size of a turn. The half planes where the turn begins and ends are one plane if the angle between them is within
-/// the limit for equal planes. Then the turn is whole, without a seam, or nothing. The two planes of half a turn are
-/// one plane.
+/// the limit for equal planes. Then the turn is whole, without a seam, or it is none. In half a turn the two half
+/// planes lie in one plane.
 enum class Turn { none, less, half, more, whole };
 
 inline Turn turn_of(const Revolve& s) {

@@ -8,7 +8,7 @@ std::vector<StraightLine> cell_outline(const Ebm& ebm) {
         return x >= 0 && y >= 0 && x < width && y < depth && ebm.cells[static_cast<std::size_t>(y * width + x)] != 0;
     };
     std::vector<StraightLine> lines;
-    // Finds the runs along one line of the grid. `differ(i)`: whether the cells on both sides of part i differ.
+    // Finds the runs along one line of the grid. `differ(i)`: whether the cells on the two sides of part i differ.
     const auto runs = [](std::int64_t count, const auto& differ, const auto& add) {
         std::int64_t start = -1;
         for (std::int64_t i = 0; i <= count; ++i) {

@@ -1,4 +1,4 @@
-// Frames: the axes of solids of a closed form, for packing and for boxes.
+// Frames: the axes of closed-form solids, for packing and for boxes.
 #pragma once
 
 #include <cmath>
@@ -7,8 +7,8 @@
 
 namespace csgrt {
 
-/// A unit vector across the unit vector `n`: across its smallest component, so
-/// that the two are far from parallel.
+/// A unit vector perpendicular to the unit vector `n`: the cross product with the axis of n's smallest component, which
+/// is far from parallel to n.
 inline Wide across(const Wide& n) {
     int smallest = 0;
     for (int i = 1; i < 3; ++i)
@@ -18,7 +18,7 @@ inline Wide across(const Wide& n) {
     return glm::normalize(glm::cross(n, side));
 }
 
-/// Both semi-axes of the base and the height.
+/// The two semi-axes of the base, and the height.
 inline WideMatrix axes_of(const Epa& s) {
     const Wide h = wide(s.h), a = glm::normalize(wide(s.a));
     return {static_cast<long double>(s.r_1) * a, static_cast<long double>(s.r_2) * glm::normalize(glm::cross(h, a)), h};
@@ -29,7 +29,7 @@ WideMatrix axes_of(const Cylinder& s) requires std::is_same_v<Cylinder, Rpc> || 
     const Wide h = wide(s.h), b = wide(s.b);
     return {0.5L * h, static_cast<long double>(s.r) * glm::normalize(glm::cross(h, b)), b};
 }
-/// Both semi-axes of the ends, and half the height.
+/// The two semi-axes of the ends, and half the height.
 inline WideMatrix axes_of(const Hyp& s) {
     const Wide h = wide(s.h), a = wide(s.a);
     return {a, static_cast<long double>(s.b) * glm::normalize(glm::cross(h, a)), 0.5L * h};
@@ -65,8 +65,8 @@ inline long double field(const Metaball& s, const Metaball::Point& p, long doubl
         }
     }
 }
-/// The natural logarithm of a field that is negligible beside the threshold, in 113 bits too, even if every point had
-/// it.
+/// The natural logarithm of a field that is negligible beside the threshold, even in 113 bits, and even if every point
+/// has such a field.
 inline long double faint(const Metaball& s) {
     constexpr long double below = 83;  // 2^-120
     return std::log(static_cast<long double>(s.threshold) / s.points.size()) - below;
@@ -92,8 +92,8 @@ inline MetaballFrame frame_of(const Metaball& s) {
     MetaballFrame frame{Wide(0), 0};
     for (const Metaball::Point& p : s.points) frame.center += wide(p.position) / count;
     for (const Metaball::Point& p : s.points) {
-        // At least one point contributes its share of the threshold at each point of the surface. The surface is no
-        // farther from that point than this distance.
+        // At each point of the surface, at least one of the metaball's points contributes its share of the threshold.
+        // `r` is the greatest distance at which this point can do so.
         long double r = p.strength;
         if (s.method == Metaball::Method::isopotential) r /= std::sqrt(share);
         if (s.method == Metaball::Method::blob) r *= std::sqrt(std::fmax(0.0L, 1 - std::log(share) / p.softness));

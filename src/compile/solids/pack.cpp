@@ -11,10 +11,10 @@ namespace csgrt {
 
 namespace {
 
-// The ratio of a cone's ends below which the smaller is a point. An end that is so small in one direction alone keeps
-// its width.
+// The ratio of a cone's ends below which the smaller end is a point. An end that is so small in one direction only
+// keeps its width.
 constexpr long double pointed = 1e-12L;
-// The difference below which the tapers of a and b are one: the cone is a quadric.
+// The difference below which the tapers of a and b are equal: the cone is a quadric.
 constexpr long double same_taper = 1e-9L;
 
 /// Semi-axes as p0 + p1 z, in units of the larger end.
@@ -31,7 +31,7 @@ Taper taper(const Vec3& base, const Vec3& top, bool base_is_point, bool top_is_p
     return {direction * larger, 0.5L * (at_base + at_top), 0.5L * (at_top - at_base)};
 }
 
-/// Is the end with semi-axes `a` and `b` a point, beside the other end?
+/// Is the end with semi-axes `a` and `b` a point, compared with the other end?
 bool is_point(const Vec3& a, const Vec3& b, const Vec3& other_a, const Vec3& other_b) {
     return glm::length(wide(a)) < pointed * glm::length(wide(other_a)) &&
            glm::length(wide(b)) < pointed * glm::length(wide(other_b));
@@ -104,7 +104,7 @@ void Packer::operator()(const Half& s) {
 void Packer::operator()(const Tor& s) {
     record.type = SOLID_TOR;
     const Wide h = glm::normalize(wide(s.h));
-    // The side is across the smallest component of h, so that the two are far from parallel.
+    // The side is the axis of h's smallest component, so that it is far from parallel to h.
     Wide side(0);
     int smallest = 0;
     for (int i = 1; i < 3; ++i)
@@ -129,7 +129,7 @@ void Packer::operator()(const Ehy& s) {
     face(plane_through(transform_point(matrix, wide(s.v)), cap));
 }
 
-// Solids that are made of others never come here: see solid_parts.cpp.
+// Solids that are made of other solids are never packed whole: see solid_parts.cpp.
 void Packer::operator()(const Pipe&) { throw std::logic_error("a pipe is packed piece by piece"); }
 void Packer::operator()(const Cline&) { throw std::logic_error("a cline is packed piece by piece"); }
 

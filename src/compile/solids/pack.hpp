@@ -1,4 +1,4 @@
-// Packing solids: makes SolidRecord, reals and plane references, as geometry/<solid>.h reads them.
+// Packing solids: makes the SolidRecord, the reals and the plane references that geometry/<solid>.h reads.
 #pragma once
 
 #include <string>
@@ -15,13 +15,13 @@
 
 namespace csgrt {
 
-/// The positions in Shapes::words of the elements of solids without a fixed size, by the address of the Shape (or of a
-/// member of it). All instances of the solid share them.
+/// The positions in Shapes::words of the elements of solids without a fixed size. The key is the address of the Shape,
+/// or of one of its members. All instances of the solid share the elements.
 using SharedParts = std::unordered_map<const void*, std::uint32_t>;
 
-/// Packs each instance of `order` as a solid, whose record begins as `terms` gives it. `common` stands for the box of
-/// the unbounded; `clipped` says which half-spaces are bounded, and by which box. Several threads do the arithmetic.
-/// Throws Error (scene) for a type that csgrt does not know, or when the tables exceed 32 bits.
+/// Packs each instance of `order` as a solid; `terms` has the first version of its record. `common`: the box that is
+/// used for unbounded solids. `clipped` tells which half-spaces are bounded, and by which box. Several threads do the
+/// arithmetic. Throws Error (scene) for a type that csgrt does not know, or when the tables exceed 32 bits.
 Shapes pack_solids(const Scene& scene, const FlatScene& flat, const Measured& measured, const Clipped& clipped,
                    const std::vector<std::uint32_t>& order, const Space& space, const Box& common,
                    const std::vector<kernel::SolidRecord>& terms, std::vector<Warning>& warnings);

@@ -1,4 +1,4 @@
-// Packing solids of a closed form.
+// Pack curved: packs solids of a closed form.
 #include <algorithm>
 #include <cmath>
 
@@ -118,7 +118,8 @@ void Packer::operator()(const Part& s) {
     frame(wide(s.v) + middle * axis, {x * unit, glm::cross(axis, x) * unit, axis * unit});
     const long double z0 = -middle / unit, z1 = (length - middle) / unit, r0 = first / unit, r1 = second / unit;
     for (const long double q : {z0, r0, z1, r1}) real(q);
-    // The cone leans by the angle of sine (r0 - r1) / |h|: it touches the balls so far along their radii.
+    // The cone leans by the angle whose sine is (r0 - r1) / |h|: it touches each ball where z is the centre's z plus
+    // sine x radius.
     const bool has_cone = std::fabs(first - second) < length;
     const long double sine = has_cone ? (first - second) / length : 0, cosine = std::sqrt((1 - sine) * (1 + sine));
     const long double slope = -sine / cosine;

@@ -1,4 +1,5 @@
-// Packing solids that triangles make: the triangles and their hierarchy once, in their own space; then each instance.
+// Pack meshes: packs solids that are made of triangles. The triangles and their hierarchy are packed once, in their own
+// space; then each instance is packed.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -14,8 +15,8 @@ namespace csgrt {
 
 namespace {
 
-/// The frame of a mesh in the kernels: its vertices less `center`, over `scale`, a power of two, so that they lie
-/// within MESH_RADIUS.
+/// The frame of a mesh in the kernels: vertices have `center` subtracted and are divided by `scale`, a power of two, so
+/// that they lie within MESH_RADIUS.
 struct MeshFrame {
     Vec3 center;
     double scale = 1;
@@ -39,22 +40,21 @@ MeshFrame frame_of(const Triangles& mesh) {
             square = std::max(square, glm::dot(from, from));
         }
     const long double radius = std::sqrt(square);
-    constexpr long double margin = 1.001L;  // so that rounding, in single precision too, takes no vertex past the
-                                            // radius
+    constexpr long double margin = 1.001L;  // rounding, also to float, moves no vertex beyond the radius
     int exponent = 0;
     std::frexp(radius * margin, &exponent);
     frame.scale = std::ldexp(1.0, exponent);
     return frame;
 }
 
-/// Makes room in a vector, which at least doubles if it grows: a scene may have very many meshes.
+/// Reserves memory in a vector. If the vector grows, it at least doubles, since a scene may have very many meshes.
 template <class T>
 void make_room(std::vector<T>& to, std::size_t more) {
     if (to.capacity() - to.size() < more) to.reserve(std::max(2 * to.capacity(), to.size() + more));
 }
 
-/// Adds a mesh. Before its vertices stand center and scale, which only the host reads. Returns the faces in the order
-/// of the hierarchy's leaves.
+/// Adds a mesh. Before its vertices it stores center and scale, which only the host reads. Returns the faces in the
+/// order of the hierarchy's leaves.
 std::vector<std::uint32_t> add_mesh(const Triangles& mesh, const MeshFrame& frame, Shapes& scene,
                                     std::uint32_t facing = 0) {
     if (mesh.faces.size() > most_triangles)
@@ -95,8 +95,8 @@ std::vector<std::uint32_t> add_mesh(const Triangles& mesh, const MeshFrame& fram
     return std::move(hierarchy.order);
 }
 
-/// The opposite corners: for each edge of each face, from corner k to the next, the third corner of the other face
-/// there; NONE unless there is exactly one.
+/// The opposite corners: for each edge of each face, from corner k to the next, the third corner of the other face at
+/// this edge; NONE unless there is exactly one other face.
 std::vector<std::array<std::uint32_t, 3>> across_edges(const Triangles& mesh) {
     struct Use {
         std::uint32_t low, high, face, edge;
@@ -121,8 +121,8 @@ std::vector<std::array<std::uint32_t, 3>> across_edges(const Triangles& mesh) {
     return across;
 }
 
-/// The thickness with which a surface without thickness is seen, millimetres: the weave still keeps it though
-/// boundaries within the tolerance are one.
+/// The thickness that is given to a surface without thickness, millimetres. It is greater than the tolerance, within
+/// which boundaries are one event, so the weave keeps the segment.
 double skin_of(double tolerance) { return tolerance > 0 ? 2 * tolerance : 0.001; }
 
 /// The position of a solid's words; `add` makes them if the solid has none yet.

@@ -1,4 +1,4 @@
-// Packing the planes of all solids; several threads find the equal ones: see shards.hpp.
+// Pack planes: packs the planes of all solids. Several threads find the equal planes (shards.hpp).
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -47,13 +47,14 @@ std::size_t drop_repeated(std::uint32_t* refs, std::size_t count) {
     return kept;
 }
 
-/// A solid without thickness: two of its faces look away from each other in one plane, so nothing is left of it.
+/// A solid without thickness: two of its faces lie in one plane and face away from each other, so nothing is left of
+/// the solid.
 struct FlatSolid {
     std::size_t solid;
     double thickness;
 };
 
-/// The distance of two such faces as given; none: there are no such faces.
+/// The distance of two such faces in the model's numbers; nullopt: there are no such faces.
 std::optional<double> flat_thickness(std::span<const PackedPlane> faces) {
     const auto apart = [&](std::size_t i, std::size_t j) {
         const PlaneTable::Key &a = faces[i].key, &b = faces[j].key;
@@ -127,7 +128,7 @@ Shards shards_of(std::vector<PackedChunk>& chunks, const PlaneTable& empty, cons
 /// For each shard, the planes that are the first of their records.
 using Firsts = std::vector<std::vector<Shards::Member>>;
 
-/// Finds the equal planes. Their `ref` is that of the shard's own table.
+/// Finds the equal planes. Sets `ref` to the reference in the shard's own table.
 Firsts find_shared(std::vector<PackedChunk>& chunks, const Shards& shards, const PlaneTable& empty, const Box& common,
                    const Shapes& shapes) {
     Firsts firsts(Shards::count);
@@ -140,7 +141,8 @@ Firsts find_shared(std::vector<PackedChunk>& chunks, const Shards& shards, const
         };
         table.reserve(members.size());
         for (std::size_t i = 0; i < members.size(); ++i) {
-            // The entries lie far apart: without prefetching most of the time would be waiting for memory.
+            // The entries lie far apart in memory: without prefetching the thread would wait for memory most of the
+            // time.
             constexpr std::size_t soon = 6, later = 12;
             if (i + later < members.size()) prefetch_line(&plane_at(i + later));
             if (i + soon < members.size()) {
@@ -157,7 +159,7 @@ Firsts find_shared(std::vector<PackedChunk>& chunks, const Shards& shards, const
     return firsts;
 }
 
-/// Writes the scene's records, in the order of the solids, and makes each `ref` the scene's.
+/// Writes the scene's records, in the order of the solids, and sets each `ref` to the reference in the scene's table.
 void number_planes(std::vector<PackedChunk>& chunks, const Shards& shards, const Firsts& firsts, const Box& common,
                    Shapes& shapes, Shells& shells) {
     // The distance of a point beyond the plane, outward from the solid whose face the plane is.
@@ -199,7 +201,7 @@ void number_planes(std::vector<PackedChunk>& chunks, const Shards& shards, const
     });
 }
 
-/// Writes each solid's references behind the words of the solids.
+/// Writes each solid's references after the words of the solids.
 void write_references(const std::vector<PackedChunk>& chunks, const Box& common, Shapes& shapes,
                       std::vector<Warning>& warnings) {
     std::vector<std::vector<kernel::PlaneRef>> of(chunks.size());
@@ -214,7 +216,7 @@ void write_references(const std::vector<PackedChunk>& chunks, const Box& common,
         for (std::size_t i = 0; i < chunks[number].parts.size(); ++i) {
             const PackedChunk::Part& part = chunks[number].parts[i];
             const std::size_t first = own.size();
-            // A wall's plane has an inner side only in a polyhedron: two walls of a concave outline that look away from
+            // A wall's plane has an inner side only in a polyhedron: two walls of a concave outline that face away from
             // each other may lie in one plane. The caps always have an inner side.
             const bool is_extrude = shapes.solids[number * PackedChunk::size + i].type == SOLID_EXTRUDE;
             if (const auto thickness = flat_thickness({plane, plane + (is_extrude ? 2 : part.faces)}))

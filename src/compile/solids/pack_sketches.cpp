@@ -1,4 +1,4 @@
-// Packing solids that sketches make.
+// Pack sketches: packs solids that are made of sketches.
 #include <algorithm>
 #include <cmath>
 
@@ -113,7 +113,7 @@ void Packer::operator()(const Revolve& s) {
 
     const WideMatrix normals = glm::transpose(glm::inverse(linear_part(matrix)));
     if (turn != Turn::whole) {
-        // The normal points away from the space between the two: the solid, or the missing part.
+        // The normals point away from the space between the two planes, which is the solid or the missing part.
         const Wide first = less ? -axes.y : axes.y;
         Wide second =
             std::cos(static_cast<long double>(s.angle)) * axes.y - std::sin(static_cast<long double>(s.angle)) * axes.x;

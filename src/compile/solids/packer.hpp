@@ -1,4 +1,4 @@
-// Packer: how one solid is written as geometry/<solid>.h reads it. All pack_*.cpp share it.
+// Packer: writes one solid as geometry/<solid>.h reads it. All pack_*.cpp share this header.
 #pragma once
 
 #include <span>
@@ -16,28 +16,27 @@
 
 namespace csgrt {
 
-/// Writes one solid. pack.cpp has the solids of planes and quadrics, pack_curved.cpp other closed forms,
-/// pack_sketches.cpp the solids of sketches, pack_meshes.cpp those of triangles.
+/// The packer writes one solid. pack.cpp has the solids of planes and quadrics, pack_curved.cpp other closed forms,
+/// pack_sketches.cpp the solids of sketches, pack_meshes.cpp the solids of triangles.
 struct Packer {
     const Matrix& matrix;
     Shapes&
         scene;  ///< only solids of no fixed size (meshes, sketches, cells) write to it: see IsSmall in pack_scene.cpp
     SharedParts& shared;
-    std::vector<double>& reals;  ///< this solid's begin at first_real; the vector is the scene's for solids without a
-                                 ///< fixed size
+    std::vector<double>& reals;  ///< the solid's, from first_real on; for solids without a fixed size the scene's
     std::vector<Plane>& planes;  ///< the faces, for the search in the table of planes
     kernel::SolidRecord record{};
     WideMatrix axes_in_world{};        ///< of the last frame
-    bool is_polyhedron = false;        ///< faces in one plane are one
+    bool is_polyhedron = false;        ///< faces in one plane are one face
     std::vector<std::string> notes{};  ///< notes on the solid
 
     void real(long double value) { reals.push_back(static_cast<double>(value)); }
     /// Sets center and L, the inverse of the matrix whose columns are the local axes in the world.
     void frame(const Wide& center, const WideMatrix& axes);
     void face(const Plane& plane) { planes.push_back(plane); }
-    /// Adds the face through `point` that a and b span, looking away from `inside` (all before the matrix).
+    /// Adds the face through `point` that a and b span, facing away from `inside` (all before the matrix is applied).
     void face(const Wide& point, const Wide& a, const Wide& b, const Wide& inside);
-    /// Adds faces of a polyhedron; several in one plane count once.
+    /// Adds faces of a polyhedron; several faces in one plane count once.
     void faces(std::span<const Plane> all);
 
     void operator()(const Ell& s);

@@ -18,11 +18,11 @@ constexpr double normal_cell = 1e-7;
 
 Plane flipped(const Plane& p) { return {{0.0 - p.normal.x, 0.0 - p.normal.y, 0.0 - p.normal.z}, 0.0 - p.distance}; }
 
-/// The side of space on which a normal lies, positive or negative. So a plane and the plane that looks the other way
-/// are looked up once.
+/// The side of space on which a normal lies, positive or negative. With it a plane and its reverse are looked up as one
+/// plane.
 double facing(const Vec3& n) { return n.x + 0.61 * n.y + 0.37 * n.z; }
 
-/// Does rounding decide the side?
+/// Could rounding decide the side?
 bool faces_both(const Plane& plane) { return std::fabs(facing(plane.normal)) <= 4 * PlaneTable::tilt; }
 
 constexpr double axis_tilt = 1e-15;
@@ -54,8 +54,9 @@ double PlaneTable::offset(const Plane& plane) const {
     return static_cast<double>(plane.distance - glm::dot(wide(plane.normal), wide(center_)));
 }
 
-/// The limit on the difference of the offsets of two equal planes across one axis over `box`: only their distance is
-/// compared. It has a margin for the difference of the normals, anywhere in the scene, and for rounding.
+/// The limit on the difference of offsets of two equal planes that are perpendicular to the same axis, over `box`. Only
+/// the distance of such planes is compared. It has a margin for the difference of the normals, anywhere in the scene,
+/// and for rounding.
 double PlaneTable::parallel_reach(const Key& key, const Box& box) const {
     return 2 * gap * diagonal(box) + 2 * rounding_ + 10 * axis_tilt * radius_ + 1e-15 * std::fabs(key.offset);
 }
@@ -95,8 +96,9 @@ void PlaneTable::add_to(Shards::Chunk& chunk, const Key& key, const Box& box, st
     // shards stay apart.
     const double part_of_radius =
         std::max(1.0 / 8192, 4 * offset_reach_ / radius_ * static_cast<double>(planes) / (Shards::count / 16));
-    // Only one of two planes has to be looked up in the cell of the other. So planes across an axis, which crowd where
-    // solids stand on one plate, are looked up only as far as each other, and the other planes as far as they.
+    // It is enough if one of two equal planes is looked up in the cell of the other. So planes perpendicular to an
+    // axis, which are many where solids stand on one plate, need only the limit for each other. The other planes use a
+    // limit that also finds those.
     const double reach = key.axis ? parallel_reach(key, box) : 2 * offset_reach_;
     const auto cells = [&](const Vec3& n, double offset) {
         constexpr double normal = 0.25;
@@ -121,7 +123,7 @@ std::uint32_t PlaneTable::find_in_cell(std::uint64_t cell, const Key& key, const
     return found;
 }
 
-/// The first record of the plane that looks the same way.
+/// The first record of an equal plane that faces the same way.
 std::uint32_t PlaneTable::find(const Key& key, const Box& box) const {
     if (key.alone) return find_in_cell(key.cell, key, box);
     const Vec3& n = key.one.normal;
@@ -162,7 +164,7 @@ kernel::PlaneRef PlaneTable::add_keyed(const Key& key, const Box& box) {
     std::uint32_t found = find(key, box);
     bool opposite = false;
     if (faces_both(key.one)) {
-        // The equal plane may have been taken for one on the other side.
+        // The equal plane may have been stored as a plane on the other side.
         Key other = key;
         other.one = flipped(key.one);
         other.offset = -key.offset;

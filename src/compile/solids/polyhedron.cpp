@@ -9,14 +9,14 @@ namespace csgrt {
 
 namespace {
 
-// Limits below which corners are one, where an arb is not convex as its numbers say. BRL-CAD merges at 0.0005 mm,
-// whatever the size; a small arb needs a finer limit.
+// Limits below which two corners are one, for an arb that is not convex by its exact numbers. BRL-CAD merges at 0.0005
+// mm, whatever the size; a small arb needs a finer limit.
 constexpr long double same_corner = 0.0005L;         // millimetres
-constexpr long double same_corner_relative = 1e-6L;  // of the arb's diagonal, if that is less
+constexpr long double same_corner_relative = 1e-6L;  // of the arb's diagonal, if this is less
 // The distance that rounding leaves between equal corners.
 constexpr long double equal_corner_relative = 1e-15L;
 // A third corner closer to the line through the first two than this, relative to their distance, does not fix the
-// plane; the limit is `equal_corner_relative` where thin arbs are taken as their numbers say.
+// plane; the limit is `equal_corner_relative` for arbs that are convex by their exact numbers.
 constexpr long double in_line_relative = 1e-6L;
 // The distance by which a corner may leave its plane, relative to the arb's diagonal, without making a twisted face.
 constexpr long double flat = 1e-12L;
@@ -46,8 +46,8 @@ std::vector<Plane> arbn_faces(const Arbn& arbn, const Matrix& matrix) {
 
 namespace {
 
-// Clips to the box of the corners. The half-spaces of a concave arb's faces can meet far away from it, but nothing
-// outside the corners' box is a part of it.
+// Clips to the box of the corners. The half-spaces of a concave arb's faces can meet far away from the arb, but the arb
+// has no part outside the corners' box.
 void clip_to_corners(const Arb& arb, const Matrix& matrix, std::vector<Plane>& planes) {
     Box box = empty_box;
     for (const Vec3& corner : arb.vertices) extend(box, corner);
@@ -57,21 +57,22 @@ void clip_to_corners(const Arb& arb, const Matrix& matrix, std::vector<Plane>& p
         planes.push_back(transform_plane(matrix, side));
 }
 
-/// sqrt(a) > sqrt(b), with both roots rounded. The roots are taken only where the squares differ, but by very little.
+/// sqrt(a) > sqrt(b), with rounded roots. The roots are computed only where the squares differ by very little.
 bool longer(long double a, long double b) {
     if (a <= b) return false;
     return a > b * (1 + 1e-17L) || std::sqrt(a) > std::sqrt(b);
 }
 
-/// Are two vectors closer than `limit`? No component of their difference is longer than the whole.
+/// Are two vectors closer than `limit`? The components are tested first, which is faster.
 bool closer(const Wide& a, const Wide& b, long double limit) {
     const Wide d = a - b;
     if (std::fabs(d.x) >= limit || std::fabs(d.y) >= limit || std::fabs(d.z) >= limit) return false;
     return glm::length(d) < limit;
 }
 
-/// A vector perpendicular to a triangle, twice its area long, from its two shorter sides: a cross product rounds by the
-/// product of its factors, and in a sliver the product of the long sides is little else.
+/// A vector perpendicular to a triangle, twice its area long, from its two shorter sides: the rounding of a cross
+/// product is relative to the product of the lengths, and in a sliver the two long sides would leave little but
+/// rounding.
 Wide normal_of(const Wide& a, const Wide& b, const Wide& c) {
     const std::array<Wide, 3> sides{b - a, c - b, a - c};
     std::array<long double, 3> squares;
@@ -82,10 +83,10 @@ Wide normal_of(const Wide& a, const Wide& b, const Wide& c) {
     return glm::cross(sides[(longest + 1) % 3], sides[(longest + 2) % 3]);
 }
 
-/// The rule for the three corners of a face that its plane goes through.
+/// The rule that chooses three corners of a face; the face's plane goes through them.
 enum class Through {
-    first,   ///< the first three that span a plane: as BRL-CAD chooses, which matters where a face is twisted
-    widest,  ///< the widest triangle, whose rounding tilts the plane least: it matters where one end of a face is a
+    first,   ///< the first three that span a plane, as BRL-CAD chooses; this matters where a face is twisted
+    widest,  ///< the widest triangle, whose rounding tilts the plane least; this matters where one end of a face is a
              ///< sliver
 };
 
@@ -94,7 +95,7 @@ struct Triangle {
 };
 
 /// Corners 0, 1, 2 if they are as wide as any three: opposite sides are equal to the last bit and shorter than both
-/// diagonals, so all four triangles have the same two shorter sides. None: a closer test is needed.
+/// diagonals, so all four triangles have the same two shorter sides. nullopt: a closer test is needed.
 std::optional<Triangle> half_of_rectangle(const std::array<Wide, 4>& corners, long double in_line) {
     const Wide u = corners[1] - corners[0], v = corners[2] - corners[1];
     if (corners[2] - corners[3] != u || corners[3] - corners[0] != v) return std::nullopt;
@@ -107,8 +108,8 @@ std::optional<Triangle> half_of_rectangle(const std::array<Wide, 4>& corners, lo
     return Triangle{corners[0], normal};
 }
 
-/// The three corners that span a face. `corners`: the `count` corners of a face, each once. None: all are nearly in
-/// line.
+/// The three corners that span a face. `corners`: the `count` corners of a face, each once. nullopt: all corners are
+/// nearly in line.
 std::optional<Triangle> spanning(const std::array<Wide, 4>& corners, std::size_t count, long double in_line,
                                  Through through) {
     if (count == 4 && through == Through::widest)
@@ -196,8 +197,8 @@ ArbFaces arb_faces(const Arb& arb, const Matrix& matrix) {
         high = glm::max(high, corners[i]);
     }
     const long double size = glm::length(high - low);
-    // A convex arb is taken as its numbers say, however thin it is. Else corners that are nearly equal may span a face
-    // of rounding alone.
+    // An arb that is convex by its exact numbers is used as it is, however thin. In other arbs nearly equal corners may
+    // span a face that is only rounding.
     ArbFaces result =
         faces_through(corners, equal_corner_relative * size, equal_corner_relative, size, Through::widest);
     if (result.is_hull) return result;

@@ -1,4 +1,4 @@
-// Polyhedra: convex, as the intersection of half-spaces. The file has their faces, and the box around them.
+// Polyhedra: convex solids as intersections of half-spaces. The file has their faces, and the box around them.
 #pragma once
 
 #include <vector>
@@ -28,8 +28,9 @@ ArbFaces arb_faces(const Arb& arb, const Matrix& matrix);
 /// The faces of an arbn in the world.
 std::vector<Plane> arbn_faces(const Arbn& arbn, const Matrix& matrix);
 
-/// The box around the intersection of half-spaces; the whole space if it is not bounded, empty if the intersection is.
-/// Expected time is linear in the number of planes. A point nearby, if one is known, helps precision.
+/// The box around the intersection of half-spaces: the whole space if the intersection is not bounded, empty if the
+/// intersection is empty. Expected time is linear in the number of planes. `near`: a point near the solid, which
+/// improves precision.
 Box polyhedron_box(const std::vector<Plane>& planes, const Vec3& near = {});
 
 }  // namespace csgrt

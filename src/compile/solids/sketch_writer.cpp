@@ -54,7 +54,8 @@ Hierarchy sort_lines(std::vector<StraightLine>& lines, const PackedSketch& sketc
     boxes.reserve(lines.size());
     for (const StraightLine& line : lines) {
         boxes.push_back(empty_box);
-        // The depth is equal for all, so that the heuristic rates a box around many lines by its circumference.
+        // All boxes get the same depth, so that the surface area heuristic rates a box around many lines by its
+        // circumference.
         const auto add = [&](long double u, long double v, double depth) {
             extend(boxes.back(), {static_cast<double>((u - sketch.u) / sketch.unit),
                                   static_cast<double>((v - sketch.v) / sketch.unit), depth});

@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::uint32_t none = CellTable::none;
 constexpr double point_cell = 1e-7;  // of the scene's radius
-constexpr double size_cell = 1e-7;   // of the size itself: it is looked up by its logarithm
+constexpr double size_cell = 1e-7;   // of the size itself, which is looked up by its logarithm
 constexpr double reach = 1e-9;       // far above `gap`, far below a cell
 
 // Indices of parameters, as in geometry/{affine,ell,tgc,tor}.h.
@@ -56,7 +56,7 @@ long double distance(std::uint32_t type, const double* reals, const Wide& p) {
     return f / glm::length(in_world);
 }
 
-/// Points all over a surface, more than a quadric or a torus has degrees of freedom.
+/// Points all over a surface. They are more than the degrees of freedom of a quadric or a torus.
 std::vector<Wide> points_on(std::uint32_t type, const double* reals, const WideMatrix& axes) {
     constexpr int around = 8;
     const long double pi = std::acos(-1.0L);
@@ -98,8 +98,7 @@ Key key_of(std::uint32_t type, const double* reals, const WideMatrix& axes, cons
     const long double p0 = reals[taper0], p1 = reals[taper1];
     const long double across = glm::length(glm::cross(axes[0], axes[1])), height = glm::length(axes[2]);
     if (p1 != 0)
-        return {center - (p0 / p1) * axes[2], across * p1 * p1 / (height * height)};  // its apex, and its
-                                                                                      // width
+        return {center - (p0 / p1) * axes[2], across * p1 * p1 / (height * height)};  // a cone: its apex, and its width
     const Wide u = axes[2] / height;  // a cylinder: the point of its axis nearest to the middle of the scene
     return {center + glm::dot(wide(scene_center) - center, u) * u, across * p0 * p0};
 }
@@ -120,7 +119,7 @@ std::optional<SurfaceTable::Surface> SurfaceTable::surface_of(std::uint32_t type
 }
 
 std::array<Shards::Chunk::Dimension, 5> SurfaceTable::coarse_cells(const Surface& surface) const {
-    // A result may lie anywhere in its cell.
+    // A result may lie anywhere in its fine cell.
     constexpr double of_point = 2 * (reach + point_cell), of_size = 2 * (reach + size_cell);
     const auto along = [&](int i) {
         return Shards::Chunk::Dimension{surface.at[i], of_point * radius_ + 10 * rounding_,
@@ -164,7 +163,7 @@ SurfaceTable::Found SurfaceTable::add(const Surface& surface, std::uint32_t numb
                 }
     if (found != none) {
         const std::span<double> first = reals_of(entries_[found].number);
-        // A cone with its apex as origin keeps its digits at the apex; a cone whose apex is cut off has none to lose.
+        // A cone with its apex as origin keeps its digits at the apex; a cone whose apex is cut off loses no digits.
         if (has_apex_origin(surface.type, mine.data()) && !has_apex_origin(surface.type, first.data()))
             std::copy(mine.begin(), mine.end(), first.begin());
         return {entries_[found].number, static_cast<double>(-out)};

@@ -1,5 +1,6 @@
-// Surface table: curved surfaces that several solids share: balls, sides of cylinders and cones, tori. All of them use
-// the first solid's numbers, so that a ray meets them at the very same distance, as planes.hpp does for flat faces.
+// Surface table: finds curved surfaces that several solids share: balls, sides of cylinders and cones, tori. These
+// solids all use the numbers of the first solid, so that a ray meets them at the very same distance, as planes.hpp does
+// for flat faces.
 #pragma once
 
 #include <array>
@@ -18,23 +19,24 @@
 
 namespace csgrt {
 
-/// Finds equal curved surfaces among the solids of a scene, within the rounding of the model's numbers. Solids with one
-/// surface then share the numbers of the first.
+/// The table finds equal curved surfaces among the solids of a scene, within the rounding of the model's numbers.
 class SurfaceTable {
 public:
-    /// The limit of distance: two surfaces are one if nowhere on the smaller solid they lie farther apart than this,
-    /// relative to its box's diagonal; far from the origin the limit is coordinate_rounding (linear.hpp).
+    /// The limit of distance: two surfaces are one if everywhere on the smaller solid they lie no farther apart than
+    /// this, relative to the diagonal of this solid's box; far from the origin the limit is coordinate_rounding
+    /// (linear.hpp).
     static constexpr double gap = 1e-10;
 
     /// Makes an empty table. `center`, `radius`: a sphere around the scene.
     SurfaceTable(const Vec3& center, double radius)
         : center_(center), radius_(radius), rounding_(coordinate_rounding * largest_coordinate(center, radius)) {}
 
-    /// A surface as it is looked up. It depends on nothing else, so several threads may find surfaces ahead.
+    /// A surface in the form in which it is looked up. It does not depend on the table's contents, so several threads
+    /// may compute surfaces ahead.
     struct Surface {
         std::uint32_t type;
-        double at[4];  ///< a point that belongs to it alone, from the scene's centre; the logarithm of its size
-        double limit;  ///< an equal surface differs by no more
+        double at[4];  ///< a characteristic point, relative to the scene's centre; then the logarithm of the size
+        double limit;  ///< the largest difference of an equal surface
     };
     /// The surface of a solid; none for types whose surfaces are not shared.
     std::optional<Surface> surface_of(std::uint32_t type, const double* reals, const WideMatrix& axes,
@@ -45,15 +47,16 @@ public:
     /// The parameters of a solid, by its number, and its local axes in the world.
     using RealsOf = std::function<std::span<double>(std::uint32_t)>;
     using AxesOf = std::function<WideMatrix(std::uint32_t)>;
-    /// The result of a search. `solid`: the solid whose parameters solid `number` uses: an earlier one with the same
-    /// surface, or itself. `depth`: how far its own surface lies inside that solid's, millimetres; negative: outside.
+    /// The result of a search. `solid`: the solid whose parameters solid `number` uses: an earlier solid with the same
+    /// surface, or itself. `depth`: how far the surface of `number` lies inside the surface of `solid`, millimetres;
+    /// negative: outside.
     struct Found {
         std::uint32_t solid;
         double depth;
     };
     Found add(const Surface& surface, std::uint32_t number, const RealsOf& reals_of, const AxesOf& axes_of);
 
-    /// Removes the surfaces, and keeps the memory.
+    /// Removes the surfaces; keeps the memory.
     void clear() {
         entries_.clear();
         cells_.clear();

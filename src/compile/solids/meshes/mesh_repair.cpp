@@ -24,7 +24,7 @@ std::string counted(std::size_t count, const char* one, const char* many) {
     return std::to_string(count) + " " + (count == 1 ? one : many);
 }
 
-/// A hash: different for different keys (each step can be undone), and as good as random.
+/// A hash that is different for different keys (each step is invertible) and looks random.
 std::uint64_t scrambled(std::uint64_t key) {
     key = (key ^ key >> 32) * 0xd6e8feb86659fd93u;
     key = (key ^ key >> 32) * 0xd6e8feb86659fd93u;
@@ -32,7 +32,7 @@ std::uint64_t scrambled(std::uint64_t key) {
 }
 std::uint64_t pair_of(std::uint32_t a, std::uint32_t b) { return std::uint64_t{a} << 32 | b; }
 
-/// The first vertex at each vertex's point.
+/// For each vertex the first vertex at the same point.
 std::vector<std::uint32_t> first_at_point(const std::vector<Vec3>& vertices) {
     std::vector<std::uint32_t> first(vertices.size()), before(vertices.size(), none);
     CellTable table;
@@ -77,12 +77,12 @@ struct Edges {
     struct Edge {
         std::uint32_t low, high;
         std::uint32_t faces = 0;
-        std::int32_t sense = 0;  ///< faces that run through it from low to high, less those from high to low
+        std::int32_t sense = 0;  ///< faces that run through the edge from low to high, minus faces from high to low
     };
     std::vector<Edge> all;
     std::vector<Corners> of_face;  ///< edge k begins at corner k
     std::size_t open = 0, crowded = 0;
-    bool winds_one_way = true;  ///< for every edge that is not open, equally many faces run through it in both ways
+    bool winds_one_way = true;  ///< equally many faces run through each edge that is not open in either direction
 
     explicit Edges(const std::vector<Corners>& faces) {
         CellTable table;
@@ -112,10 +112,10 @@ struct Edges {
     }
 };
 
-/// Numbers faces by their points, whichever way they wind.
+/// Numbers faces by their points, whatever their winding.
 class FaceNumbers {
 public:
-    /// The number of a face, which is the next one if the face is new. Its points must differ.
+    /// The number of a face, which is the next number if the face is new. The face's points must differ.
     std::uint32_t operator()(const Corners& face) {
         // An edge has a number, and with the third point the face has one.
         Corners sorted = face;
@@ -140,8 +140,8 @@ private:
 /// Rules for faces that are given several times.
 enum class Copies {
     count_once,
-    vanish_as_walls,   ///< faces do not count if edges have an even number of faces without them
-    vanish_as_sheets,  ///< nor do faces of which both sides are given, and that no edge needs
+    vanish_as_walls,   ///< a face does not count if its edges have an even number of faces without it
+    vanish_as_sheets,  ///< and a face that is given with its two sides does not count if no edge needs it
 };
 
 /// The numbers of faults of each kind, for the notes.
@@ -149,7 +149,7 @@ struct Counts {
     std::size_t repeated = 0, walls = 0, flat = 0, split = 0, turned = 0, not_looked_at = 0;
 };
 
-/// Repairs a bot's faces, on the way to a closed surface.
+/// The repair of a bot's faces, which aims at a closed surface.
 class MeshRepair {
 public:
     explicit MeshRepair(const Bot& bot);
@@ -179,8 +179,8 @@ private:
     double reach_ = 0, size_ = 0;
     std::vector<Corners> faces_;       ///< points
     std::vector<std::uint32_t> from_;  ///< as in RepairedMesh
-    /// One entry a face, while they are chosen: how often it is given, and how often wound the other way; whether it
-    /// may be left out.
+    /// One entry a face, while faces are chosen: how often the face is given, how often with the opposite winding, and
+    /// whether it may be left out.
     std::vector<std::uint32_t> copies_, turned_copies_;
     std::vector<bool> optional_;
     bool any_optional_ = false;
@@ -200,7 +200,7 @@ MeshRepair::MeshRepair(const Bot& bot) : bot_(bot), point_(first_at_point(bot.ve
     size_ = length(high - low);
 }
 
-/// Is the face flat, as far as the rounding of its vertices tells? False for a face with two equal points.
+/// Is the face without area, as far as the rounding of its vertices tells?
 bool MeshRepair::is_flat(const Corners& face) const {
     const Vec3 &a = bot_.vertices[face[0]], &b = bot_.vertices[face[1]], &c = bot_.vertices[face[2]];
     const Vec3 u = b - a, v = c - a, w = c - b, n = cross(u, v);
@@ -243,7 +243,7 @@ void MeshRepair::take_faces() {
 }
 
 /// Decides which of the optional faces count, so that edges have an even number of faces. An edge with one undecided
-/// face decides it. An edge that has only one face in all decides nothing.
+/// face decides this face. An edge that has only one face in all decides nothing.
 void MeshRepair::choose(Copies rule) {
     if (!any_optional_) return;
     const Edges edges(faces_);
@@ -310,8 +310,8 @@ void MeshRepair::choose(Copies rule) {
     from_.resize(kept);
 }
 
-/// Lists for each edge the ends of `edges` in its middle, from low to high. Edges that lie on one another, all with the
-/// same points, are not searched to the end: this would take the square of their number.
+/// Lists for each edge the ends of other edges that lie on it, from low to high. The search stops early where many
+/// edges lie on one another with the same points: the time would grow as the square of their number.
 std::vector<std::vector<std::uint32_t>> MeshRepair::points_on(const std::vector<Edges::Edge>& edges) {
     // The distance that rounding to single precision makes.
     const double near = std::min(0x1p-23 * reach_, 1e-6 * size_);
@@ -321,7 +321,8 @@ std::vector<std::vector<std::uint32_t>> MeshRepair::points_on(const std::vector<
     std::sort(ends.begin(), ends.end());
     ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
 
-    // The cell's size: so small that a surface has about one end in each, and not smaller than the search distance.
+    // The cell's size: so small that a surface has about one end in each cell, and not smaller than the search
+    // distance.
     const double side =
         std::max(size_ / std::clamp(std::sqrt(static_cast<double>(ends.size())), 1.0, 1024.0), 2 * near);
     const auto cell = [&](double x) { return static_cast<std::int64_t>(std::floor(x / side)); };
@@ -347,7 +348,7 @@ std::vector<std::vector<std::uint32_t>> MeshRepair::points_on(const std::vector<
             if (!(along > near && along < whole - near) || !(length(cross(ap, ab)) <= near * whole)) return;
             on.emplace_back(along, p);
         };
-        // Searches, along the axis that the edge runs along most, the cells that it touches.
+        // Searches the cells that the edge touches, along its main axis.
         const std::array<double, 3> from{a.x, a.y, a.z}, way{ab.x, ab.y, ab.z};
         std::size_t axis = 0;
         for (std::size_t k = 1; k < 3; ++k)
@@ -392,7 +393,7 @@ void cut(Corners face, Cuts on, std::vector<Corners>& parts) {
         std::rotate(face.begin(), face.begin() + 1, face.end());
         std::rotate(on.begin(), on.begin() + 1, on.end());
     }
-    // A fan from the third corner to the first edge; its outer two triangles take the other edges' points.
+    // A fan from the third corner to the first edge; its two outer triangles are cut at the points of the other edges.
     const auto fan = [&parts](std::uint32_t tip, std::uint32_t from, const std::vector<std::uint32_t>& by,
                               std::uint32_t to) {
         for (const std::uint32_t p : by) parts.push_back({tip, std::exchange(from, p), p});
@@ -403,7 +404,7 @@ void cut(Corners face, Cuts on, std::vector<Corners>& parts) {
     fan(on[0].back(), face[1], on[1], face[2]);
 }
 
-/// Cuts faces at the points in the middle of their open edges, where this leaves none of their parts open.
+/// Cuts faces at the points on their open edges, where this leaves no part of an edge open.
 bool MeshRepair::split(const Edges& edges) {
     std::vector<Edges::Edge> open;
     std::vector<std::uint32_t> number(edges.all.size(), none);
@@ -414,7 +415,8 @@ bool MeshRepair::split(const Edges& edges) {
     }
     std::vector<std::vector<std::uint32_t>> points = points_on(open);
 
-    // An edge is split if all its parts are closed after all splits. Edges that are not split leave others open.
+    // An edge is split if all its parts are closed after all splits. An edge that is not split may leave other edges
+    // open.
     for (bool changed = true; changed;) {
         std::unordered_map<std::uint64_t, bool> odd;
         const auto part_of = [&](std::uint32_t a, std::uint32_t b) -> bool& {
@@ -458,8 +460,8 @@ bool MeshRepair::split(const Edges& edges) {
     return counts_.split > 0;
 }
 
-/// Counts the faces that wind against most of the faces to which edges of two faces join them. `apply`: turns them
-/// over.
+/// Counts the faces that wind against most of the faces to which they are joined by edges of two faces. `apply`: turns
+/// these faces over.
 std::size_t MeshRepair::turn_over(const Edges& edges, bool apply) {
     const Lists at(edges.all.size(), [&](const auto& add) {
         for (std::uint32_t f = 0; f < faces_.size(); ++f)
@@ -515,7 +517,7 @@ RepairedMesh MeshRepair::finish(std::vector<std::string> notes) const {
     return {{bot_.vertices, as_given ? bot_.faces : faces_}, from_, true, false, std::move(notes)};
 }
 
-/// Makes the edges, after faces are cut where this closes some.
+/// Makes the edges, after faces are cut where this closes some edges.
 Edges MeshRepair::joined() {
     Edges edges(faces_);
     has_gaps_ = edges.open > 0;

@@ -1,4 +1,4 @@
-// Repair of bots: the faults of their faces, and how csgrt repairs them.
+// Mesh repair: the faults of a bot's faces, and how csgrt repairs them.
 //
 // If a bot encloses a volume, equal points are one vertex, whatever their numbers, and then
 //
@@ -16,14 +16,13 @@
 //        \     /          \  |  /
 //
 // - an edge with an odd number of faces is open. The inside of a surface without open edges is decided by parity,
-//   whichever way its faces wind, and however many meet in an edge.
+//   whatever the winding of its faces, and however many faces meet in an edge.
 // - the faces of a surface with open edges are turned over where they wind against their neighbours, if the bot says
-//   that they wind one way. Its inside is decided by the way they wind. BRL-CAD does so, too, with a surface that
-//   cutting has closed and whose faces all wind the other way than the bot says: it encloses the outside, and csgrt
-//   keeps this.
+//   that they wind one way. The winding decides the inside. It also does, as in BRL-CAD, for a surface that cutting has
+//   closed and whose faces all wind against the bot's orientation: such a surface encloses the outside.
 //
-// The plates of a bot are each a solid of its own: plates without an area, and plates given before with the same
-// thickness, do not count.
+// Each plate of a bot is a separate solid. Plates without an area, and plates given before with the same thickness, do
+// not count.
 #pragma once
 
 #include <cstdint>
@@ -37,14 +36,14 @@ namespace csgrt {
 /// A bot after repair: a surface whose inside is well defined, and notes on the faults.
 struct RepairedMesh {
     Triangles mesh;
-    std::vector<std::uint32_t> from;  ///< one a face: the bot's face that it is, or is a part of
+    std::vector<std::uint32_t> from;  ///< one a face: the bot's face of which this face is a part or the whole
     bool is_closed = true;            ///< no edge is open; has no meaning for plates
-    bool decided_by_facing = false;   ///< the inside is decided by the way that faces wind; else by parity
+    bool decided_by_facing = false;   ///< the winding of faces decides the inside; else parity does
     std::vector<std::string> notes;   ///< the faults, with counts; each makes a sentence with the bot's name
 };
 
-/// Repairs a bot. Expected time is proportional to the number of faces without open edges; else n log n for usual
-/// meshes.
+/// Repairs a bot. Without open edges the expected time is proportional to the number of faces n; else it is n log n for
+/// usual meshes.
 RepairedMesh repair(const Bot& bot);
 
 }  // namespace csgrt

@@ -1,5 +1,5 @@
-// Near lookup: finds numbers that may differ by rounding. Cells are much larger than the differences, so that one cell
-// is enough, nearly always.
+// Near lookup: finds numbers that are equal except for rounding. Cells are much larger than the differences, so nearly
+// always one cell has to be searched.
 #pragma once
 
 #include <algorithm>
@@ -25,7 +25,7 @@ inline std::int64_t nearest_cell(double at) {
 /// The cells that the interval from value - tolerance to value + tolerance touches; centres are at multiples of `cell`.
 inline CellRange cells_of(double value, double tolerance, double cell) {
     const double at = value / cell;
-    if (std::fabs(at) < 0x1p30) {  // rounding moves it by less than 1e-6
+    if (std::fabs(at) < 0x1p30) {  // rounding moves the value by less than 1e-6
         const std::int64_t middle = nearest_cell(at);
         if (std::fabs(at - static_cast<double>(middle)) + tolerance / cell < 0.5 - 1e-6) return {middle, middle};
     }
@@ -42,7 +42,7 @@ std::uint64_t cell_hash(const Cell& cell) {
     return hash;
 }
 
-/// The hash of a cell with all bits mixed: hashes of neighbouring cells differ in few bits, all of them low or high.
+/// The hash of a cell with all bits mixed: unmixed hashes of neighbouring cells differ in few bits.
 inline std::uint64_t mixed(std::uint64_t hash) { return hash * 0x9e3779b97f4a7c15u; }
 
 /// A table from the hashes of cells to numbers, in one block of memory: a scene has millions of cells, each looked up
@@ -51,7 +51,7 @@ class CellTable {
 public:
     static constexpr std::uint32_t none = 0xffffffff;
 
-    /// The number of a cell; none if it has none.
+    /// The number of a cell; `none` if the cell has no number.
     std::uint32_t find(std::uint64_t hash) const {
         if (slots_.empty()) return none;
         return slots_[slot_of(hash)].number;

@@ -10,7 +10,7 @@ Triangles triangles_of(const Ars& ars) {
     for (const auto& curve : ars.curves) mesh.vertices.insert(mesh.vertices.end(), curve.begin(), curve.end());
     const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
         const Vec3 &p = mesh.vertices[a], &q = mesh.vertices[b], &r = mesh.vertices[c];
-        if (p != q && q != r && r != p) mesh.triangle(a, b, c);  // many curves are a point, or end in one
+        if (p != q && q != r && r != p) mesh.triangle(a, b, c);  // many curves are a point, or end in a point
     };
     for (std::uint32_t i = 0; i + 1 < ars.curves.size(); ++i) {
         const std::uint32_t one = i * points, next = one + points;

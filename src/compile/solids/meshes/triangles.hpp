@@ -1,4 +1,4 @@
-// Triangles of solids that triangles make.
+// Triangles: the triangles of the solids that are made of triangles.
 #pragma once
 
 #include <array>
@@ -9,8 +9,8 @@
 
 namespace csgrt {
 
-/// A surface. Triangles that share an edge share its points, as numbers or bit by bit, so no ray passes between them. A
-/// triangle of no area does no harm.
+/// A surface. Triangles that share an edge share its points, by number or bit by bit, so no ray passes between them. A
+/// triangle without area does no harm.
 struct Triangles {
     std::vector<Vec3> vertices;
     std::vector<std::array<std::uint32_t, 3>> faces;
@@ -23,20 +23,20 @@ struct Triangles {
     }
 };
 
-/// The triangles of an ars. Between two curves, the quadrangle from points j to points j + 1 is cut from the first
-/// curve's j to the second one's j + 1, as in BRL-CAD. The first and the last curve are not closed by a surface, unless
-/// they are a point.
+/// The triangles of an ars. Between two curves, the quadrangle from points j to points j + 1 is cut from point j of the
+/// first curve to point j + 1 of the second curve, as in BRL-CAD. The first and the last curve are not closed by a
+/// surface, unless they are a point.
 Triangles triangles_of(const Ars& ars);
 
 /// The triangles of an nmg: every face by the triangulation of triangulate.hpp.
 Triangles triangles_of(const Nmg& nmg);
 
-/// The triangles of a dsp: the surface over the grid, walls along its border, and a floor at z = 0. Vertices count
-/// cells and heights; Dsp::matrix transforms them.
+/// The triangles of a dsp: the surface over the grid, walls along its border, and a floor at z = 0. The vertices' units
+/// are cells and heights; Dsp::matrix transforms them.
 Triangles triangles_of(const Dsp& dsp);
 
-/// The triangles of a vol: two wherever a solid cell meets an empty one, or the border. Vertices count cells;
-/// grid_matrix transforms them. Throws Error (scene) if there are more than a mesh can have.
+/// The triangles of a vol: two wherever a solid cell meets an empty cell or the border. The vertices' unit is a cell;
+/// grid_matrix transforms them. Throws Error (scene) if there are more triangles than a mesh can have.
 Triangles triangles_of(const Vol& vol);
 Matrix grid_matrix(const Vol& vol);
 

@@ -21,7 +21,8 @@ public:
     }
 
     /// Is the cell cut from its lower left to its upper right corner? The adaptive cut is along the diagonal that bends
-    /// less, seen from the corners before it to the corners behind it; if both bend alike, it is the other one.
+    /// less, measured with the next corner beyond each of its ends. If the two diagonals bend alike, the cell is cut
+    /// along the other diagonal.
     bool is_cut_upward(std::int64_t x, std::int64_t y) const {
         switch (dsp_.cut) {
             case Dsp::Cut::lower_left:
@@ -92,8 +93,8 @@ public:
     explicit Volume(const Vol& vol)
         : vol_(vol), size_{std::int64_t{vol.width}, std::int64_t{vol.depth}, std::int64_t{vol.height}} {}
 
-    /// Calls once for every face between a solid cell and an empty one: with the solid cell on its far side, and the
-    /// axis across it.
+    /// Calls once for every face between a solid cell and an empty one: with the cell on the face's far side, and the
+    /// axis across the face.
     template <class Call>
     void for_each_face(const Call& call) const {
         for (std::int64_t z = 0; z <= size_[2]; ++z)

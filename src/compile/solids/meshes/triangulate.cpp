@@ -20,7 +20,7 @@ long double area(const Point& a, const Point& b, const Point& c) {
     return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
-/// Newell's normal: the sum of the areas seen along each axis.
+/// Newell's normal: its components are the loop's areas seen along each axis.
 Wide normal_of(const std::vector<Vec3>& vertices, const std::vector<std::uint32_t>& loop) {
     Wide n(0);
     const Wide origin = wide(vertices[loop[0]]);
@@ -91,8 +91,8 @@ private:
         corners_[b].prev = a;
     }
 
-    /// Does the direction from a corner to p lead into the polygon? Of the copies of a corner that bridges make, one
-    /// does.
+    /// Does the direction from a corner to p lead into the polygon? Bridges make copies of a corner; for one of the
+    /// copies the answer is yes.
     bool opens_towards(std::size_t corner, const Point& p) const {
         const bool in = area(at(corners_[corner].prev), at(corner), p) >= 0;
         const bool out = area(at(corner), at(corners_[corner].next), p) >= 0;
@@ -122,7 +122,7 @@ void Polygon::bridge(std::size_t hole) {
         if (p.y != q.y && std::min(p.y, q.y) <= h.y && h.y <= std::max(p.y, q.y)) {
             const long double x = p.x + (h.y - p.y) / (q.y - p.y) * (q.x - p.x);
             // The outline runs counterclockwise: its inside is to the left of an edge that goes up. The edge's end may
-            // have several copies; the ray comes to the copy that opens towards it.
+            // have several copies; the ray ends at the copy that opens towards the hole.
             const std::size_t end = p.y == h.y ? c : q.y == h.y ? next : p.x > q.x ? c : next;
             const bool meets = at(end).y != h.y || opens_towards(end, h);
             if (x >= h.x && x < nearest && p.y < q.y && meets) {
@@ -133,8 +133,8 @@ void Polygon::bridge(std::size_t hole) {
         }
         c = next;
     } while (c != start_);
-    // A corner within the triangle of hole, edge and this end hides it: then the bridge goes to the one least off the
-    // line.
+    // Corners within the triangle of hole, edge and this end may hide the end. Then the bridge leads to the corner that
+    // is least off the line.
     if (found && at(seen).y != h.y) {
         const Point foot{nearest, h.y}, end = at(seen);
         const long double side = area(h, foot, end) > 0 ? 1 : -1;
@@ -180,7 +180,7 @@ void Polygon::cut(std::vector<std::array<std::uint32_t, 3>>& triangles) {
     std::size_t left = 1;
     for (std::size_t c = corners_[start_].next; c != start_; c = corners_[c].next) ++left;
     std::size_t corner = start_, misses = 0;
-    bool any = false;  // no corner is an ear: the next corner is cut
+    bool any = false;  // no corner is an ear: the next corner is cut off
     while (left >= 3) {
         const std::size_t prev = corners_[corner].prev, next = corners_[corner].next;
         if (!any && turn(corner) != 0 && !is_ear(corner)) {
