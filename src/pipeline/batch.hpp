@@ -1,4 +1,4 @@
-// A batch: the rays that go through the kernels together.
+// Batch: the rays for which the kernels run together.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,7 @@ struct RayBatch {
     std::uint32_t first_tile() const { return first / tile_rays; }
     std::uint32_t end_tile() const { return (first + rays) / tile_rays; }
     std::uint32_t tiles() const { return rays / tile_rays; }
-    /// False: the batch is a part of a tile, because the memory holds no more.
+    /// False if the batch is a part of a tile, because more rays do not fit the memory.
     bool is_whole_tiles() const { return rays % tile_rays == 0; }
 };
 

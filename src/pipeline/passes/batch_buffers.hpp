@@ -8,8 +8,8 @@
 
 namespace csgrt {
 
-/// The kind of rays that a batch's kernels run for, and so the buffer that lists them: tiles of a picture, single
-/// pixels of it, or rays as the caller gave them.
+/// The kind of a batch's rays, which decides the buffer that lists them: tiles of a picture, single pixels of a
+/// picture, or the rays of a list.
 enum class Work : std::uint32_t { tiles = WORK_TILES, pixels = WORK_PIXELS, rays = WORK_RAYS };
 
 /// The buffers of one batch that several passes share: its frame, its list of tiles, pixels or rays, and its report.
@@ -25,15 +25,15 @@ struct BatchBuffers {
           overflown(device, "rays that overflowed") {}
 
     Buffer frame;       ///< kernel::Frame in the program's precision
-    Buffer costs;       ///< one byte a tile: kernel 0's estimate of its cost, 0 if its rays see nothing
+    Buffer costs;       ///< one byte a tile: kernel 0's estimate of its cost; 0: its rays see nothing
     Buffer tile_nodes;  ///< LISTED_NODES kernel::TileNode a tile
     Buffer tiles;       ///< Work::tiles: the tiles' numbers, on a GPU with the number of a part (PART_SHIFT)
     Buffer pixels;      ///< Work::pixels: the numbers of the pixels' rays
     Buffer rays;        ///< Work::rays: kernel::RayRecord in the program's precision
-    Buffer report;      ///< kernel::BatchReport, and one byte a tile: not 0 if it shows something
-    Buffer overflown;   ///< first hits: the numbers of rays without room for all their segments
+    Buffer report;      ///< kernel::BatchReport, and one byte a tile: not 0 if the tile shows something
+    Buffer overflown;   ///< first hits: the numbers of rays with too many segments at a time
 
-    /// The kernels' list of tiles or of pixels; it has no meaning for rays as the caller gave them.
+    /// The kernels' list of tiles or of pixels; it has no meaning for the rays of a list.
     const Buffer& numbers(Work work) const { return work == Work::pixels ? pixels : tiles; }
 
     static std::uint64_t report_bytes(const RayBatch& batch) {
@@ -51,7 +51,7 @@ struct BatchBuffers {
         tile_nodes.release();
         release_lists();
     }
-    /// Gives the memory back, except that which kernel 0 wrote.
+    /// Gives the memory back, except the buffers that kernel 0 wrote.
     void release_lists() {
         for (Buffer* buffer : {&tiles, &pixels, &rays, &report, &overflown}) buffer->release();
     }

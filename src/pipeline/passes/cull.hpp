@@ -8,8 +8,8 @@
 
 namespace csgrt {
 
-/// Launches kernel 0. Tiles that see nothing are left out of all later kernels; rays of the others test only the nodes
-/// of their tile's list.
+/// The pass launches kernel 0. Later kernels leave out tiles that see nothing; rays of the other tiles test only the
+/// nodes of their tile's list.
 class CullPass {
 public:
     /// Takes the kernel of `file` from `program`.

@@ -22,7 +22,7 @@ DeepRayPass::Tree::Tree(Device& device, const StatusTree& tree, std::uint32_t re
       cluster_words(static_cast<std::uint32_t>(tree.outside.size())),
       words(cluster_words + kernel::words_of_set(regions)) {}
 
-// Processors take few rays at a time, so that the rays' status stays in their caches.
+// Processors trace few rays at a time, so that the rays' status fits their caches.
 DeepRayPass::DeepRayPass(Device& device, const Program& program, const CompiledScene& scene)
     : rays_at_a_time(device.info().type == "cpu" ? 256 : 65'536),
       device_(device),
@@ -64,7 +64,7 @@ bool DeepRayPass::prepare(const std::vector<kernel::RayCount>& offsets, std::uin
     listed_.push_back(next);
     if (!has_tree(spoken_for)) return false;
 
-    segments_.release();  // as large as these rays need
+    segments_.release();  // they are allocated for these rays below
     status_.release();
     const std::uint64_t list_bytes = listed_.size() * sizeof(kernel::DeepRay);
     const std::uint64_t available = device_.available() + rays_.size();
@@ -98,7 +98,7 @@ bool DeepRayPass::prepare(const std::vector<kernel::RayCount>& offsets, std::uin
     return true;
 }
 
-// The last merge leaves the order in the nodes' `next`.
+// The last merge writes the order into the nodes' `next`.
 void DeepRayPass::sort(PartitionMemory& memory, TimedKernels& timed) {
     const cl_uint count = static_cast<cl_uint>(listed_.size() - 1), blocks = listed_.back().block;
     const auto add = [&](Event event) { timed.emplace_back(&PipelineCounts::weave, std::move(event)); };

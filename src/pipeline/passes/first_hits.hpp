@@ -1,4 +1,4 @@
-// First-hit pass: draws the first hits of a batch in one kernel, which stores only the picture.
+// First-hit pass: draws the first hits of a batch by one kernel, which stores only the picture.
 #pragma once
 
 #include "pipeline/counts.hpp"
@@ -6,15 +6,16 @@
 
 namespace csgrt {
 
-/// Launches the kernel of first hits. Its rays evaluate their events from front to back in private memory and stop at
-/// the first claim.
+/// The pass launches the kernel of first hits, in which each ray evaluates its events from front to back in private
+/// memory, up to the first claim.
 class FirstHitPass {
 public:
-    /// Compiles its kernels. Throws Error (device_fault).
+    /// Compiles the kernels. Throws Error (device_fault).
     FirstHitPass(Device& device, const CompiledScene& scene, const Settings& settings);
 
-    /// Draws the pixels of the batch's tiles, which are culled and listed, into `picture`. Rays without room for all
-    /// their segments are not drawn: the report counts them, and `overflown` lists them. Does not wait.
+    /// Draws the pixels of the batch's tiles, which are culled and listed, into `picture`. Rays with more segments at a
+    /// time than the kernel holds are not drawn: the report counts these rays, and `overflown` lists them. Does not
+    /// wait.
     TimedKernels launch(const SceneTables& scene, BatchBuffers& batch, const Buffer& picture, std::uint32_t rays);
 
     /// The native device's program for a scene (cmake/native_kernels.cmake).

@@ -25,8 +25,8 @@ std::uint64_t argument(T* memory) {
 std::uint64_t argument(std::uint32_t value) { return value; }
 constexpr const void* none = nullptr;
 
-/// Replaces each count by the sum of the counts before it. `counts` has one more entry, for the sum of all, which is
-/// returned.
+/// Replaces each count by the sum of the counts before it. `counts` has one more entry, for the sum of all counts.
+/// Returns this sum.
 kernel::RayCount scan(std::span<kernel::RayCount> counts) {
     std::uint64_t segments = 0, words = 0;
     const auto limited = [](std::uint64_t x) {
@@ -68,7 +68,7 @@ struct NativeTracer::Scratch {
     }
 };
 
-/// One batch on its way through the kernels.
+/// The data of one batch while its kernels run.
 struct NativeTracer::Run {
     const kernel::Frame& frame;
     std::span<const kernel::RayRecord> rays;
@@ -195,8 +195,8 @@ void NativeTracer::trace(const kernel::Frame& frame, const RayList& rays, std::u
     while (first < end) {
         const std::span records = std::span(memory).first(std::min(size, end - first));
         rays.fill(first, records);
-        // First hits come in the order of the solids' boxes, but a plate that a ray grazes may begin before its box. A
-        // packet gains nothing from points, which have nothing in common.
+        // First hits are searched in the order of the solids' boxes, but a plate that a ray grazes may begin before its
+        // box. Packets do not help for points, which are anywhere.
         const bool by_hits =
             frame.first_row && !frame.whole_lines && records.size() > 1 && records[0].t_near < records[0].t_far;
         if (!(by_hits && hit(frame, records, receiver.fields(), stop, rows, counts)) &&
@@ -245,7 +245,7 @@ bool NativeTracer::hit(const kernel::Frame& list, std::span<const kernel::RayRec
     return true;
 }
 
-// The steps run one after the other, as in DeepRayPass (src/pipeline/passes/deep_rays.hpp).
+// The steps are the same as in DeepRayPass (src/pipeline/passes/deep_rays.hpp).
 void NativeTracer::trace_deep_rays(Run& run) const {
     Scratch& s = run.scratch;
     constexpr std::uint32_t field_in_boundary = 0, field_next = 2;  // of kernel::PartitionNode

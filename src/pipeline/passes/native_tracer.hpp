@@ -1,5 +1,5 @@
 // Native tracer: traces lists of rays by the native device's kernels, without OpenCL. A batch is traced on the calling
-// thread, in the thread's own memory, which its caches hold. Several threads trace batches side by side.
+// thread, in memory of this thread that fits its caches. Several threads may trace batches at once.
 #pragma once
 
 #include <atomic>
@@ -15,18 +15,19 @@
 
 namespace csgrt {
 
-/// Calls the native kernels directly, batch by batch. One object serves all threads; memory is each thread's own.
+/// The tracer calls the native kernels directly, batch by batch. One object serves all threads; each thread has its own
+/// memory.
 class NativeTracer {
 public:
     /// Refers to the level's programs "partitions" and "first_hits", and to the scene, which must outlive the tracer.
     /// `budget`: bytes that a batch may take.
     NativeTracer(const native::Level& level, const CompiledScene& scene, std::uint64_t budget);
 
-    /// The most rays that go through the kernels together: their segments stay in a processor's cache.
+    /// The most rays of a batch: their segments fit a processor's cache.
     static constexpr std::uint32_t batch_rays = 512;
 
-    /// Writes the rows of a batch; `frame` is a list's. Any thread. False: the batch does not fit the budget. Throws
-    /// Error (interrupted) when `stop`, which may be null, becomes true.
+    /// Writes the rows of a batch; `frame`: the frame of a list. Any thread. Returns false if the batch does not fit
+    /// the budget. Throws Error (interrupted) when `stop`, which may be null, becomes true.
     bool trace(const kernel::Frame& frame, std::span<const kernel::RayRecord> rays, Fields fields,
                const std::atomic<bool>* stop, RowMemory& rows, PipelineCounts& counts) const;
 
@@ -38,7 +39,7 @@ public:
 private:
     struct Scratch;
     struct Run;
-    /// Writes the first row of each ray. False: a ray has more segments at a time than the kernel has room for.
+    /// Writes the first row of each ray. Returns false if a ray has more segments at a time than the kernel holds.
     bool hit(const kernel::Frame& frame, std::span<const kernel::RayRecord> rays, Fields fields,
              const std::atomic<bool>* stop, RowMemory& rows, PipelineCounts& counts) const;
     void trace_deep_rays(Run& run) const;

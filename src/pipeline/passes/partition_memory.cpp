@@ -55,8 +55,8 @@ bool PartitionMemory::reserve_candidates(std::uint32_t candidates) {
 
 bool PartitionMemory::reserve_segments(const kernel::RayCount& total) {
     if (total.segments >= NONE / 2 || total.words == COUNT_MAX) return false;
-    const std::uint64_t words =
-        std::max<std::uint64_t>(total.words, 2 * std::uint64_t{total.segments});  // the number of each boundary's ray
+    // Kernel 2 stores the number of each boundary's ray there.
+    const std::uint64_t words = std::max<std::uint64_t>(total.words, 2 * std::uint64_t{total.segments});
     const Wanted wanted[] = {{&boundaries_, total.segments * segment_bytes()}, {&bits_, words * sizeof(std::uint32_t)}};
     const std::uint64_t partitions = partition_bytes(total.segments),
                         more = partitions > found_.size() ? partitions : 0;

@@ -1,4 +1,4 @@
-// Partition memory: the buffers through which the five kernels hand on their results for a batch's rays, on the device.
+// Partition memory: the buffers on the device in which the five kernels store their results for a batch's rays.
 //
 //   kernel             1 count      | 2 store segments | 3 weave | 4 evaluate | 5 shade, host
 //   candidate places   w r            r
@@ -9,7 +9,8 @@
 //   offsets            w              r                  r         r           r
 //   boundaries, bits                  w                  r w       r           r
 //
-// Two pairs share memory on purpose: the lines that begin with dots take the place of the line above once it was read.
+// Two pairs share memory on purpose: a line that begins with dots uses the memory of the line above, which has been
+// read by then.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +20,7 @@
 
 namespace csgrt {
 
-/// The sizes that rays need, or that the buffers have room for.
+/// The sizes that rays need, or the capacity of the buffers.
 struct PartitionSizes {
     std::uint32_t candidates = 0;
     kernel::RayCount total{};  ///< segments, and words of partitions' bits
@@ -30,7 +31,8 @@ struct PartitionSizes {
     }
 };
 
-/// The buffers of a batch's segments and partitions. They are kept from batch to batch and grow to the largest.
+/// The buffers of a batch's segments and partitions. They are kept from batch to batch and grow to the size of the
+/// largest batch.
 class PartitionMemory {
 public:
     PartitionMemory(Device& device, const RecordConverter& records);
@@ -45,15 +47,15 @@ public:
     Buffer& bits() { return bits_; }                    ///< words; at least 2 a segment
     Buffer& tally_sums() { return tally_sums_; }        ///< kernel::RayTally, one a scan block
 
-    /// Bytes of each ray, whatever it hits.
+    /// Bytes that each ray needs even if it hits nothing.
     static constexpr std::uint64_t ray_bytes = 2 * sizeof(kernel::RayCount) + sizeof(kernel::RayTally);
 
-    /// Each of these makes room and returns true, or returns false if there is not enough device memory. Buffers only
+    /// The three functions below reserve memory. They return false if there is not enough device memory. Buffers only
     /// grow, unless they would not fit.
     bool reserve_rays(std::uint32_t rays);
     bool reserve_candidates(std::uint32_t candidates);
     bool reserve_segments(const kernel::RayCount& total);
-    /// Makes room for partitions, when kernel 2 is queued: they take the memory of its input.
+    /// Reserves memory for partitions, when kernel 2 is queued: partitions use the memory of kernel 2's input.
     void reserve_partitions(std::uint32_t segments) { found_.reserve(partition_bytes(segments)); }
 
     /// The bytes that reserve_partitions() will take.

@@ -21,7 +21,7 @@ std::vector<std::string> files_of(bool packets, bool rays_in_faces) {
     return files;
 }
 
-// Another evaluation takes all rays, so none is deep: bit arrays of more segments have more words than can be counted.
+// With another evaluation no ray is deep: a ray of more segments than this limit has more words than 32 bits can count.
 std::vector<std::string> options_for(const Device& device, const CompiledScene& scene, const Settings& settings) {
     std::vector<std::string> options = program_options(device, ProgramNeeds(scene), settings);
     if (laboratory(settings).evaluation) options.push_back("DEEP_SEGMENTS=0x3ffffu");
@@ -74,7 +74,7 @@ void PartitionPass::set_scene(const CompiledScene& scene, const RecordConverter&
     average_ = average_before_ = {};
 }
 
-// The first step of a scan makes the entries sums within their block, and writes each block's sum.
+// The first step of a scan replaces the entries by sums within their block, and writes each block's sum.
 void PartitionPass::sum_blocks(const Buffer& entries, std::uint32_t size, Buffer& sums, TimedKernels& timed) {
     sums.reserve(scan_blocks_of(size) * sizeof(kernel::RayCount));
     timed.emplace_back(&PipelineCounts::scan, scan_blocks_.launch(std::size_t{scan_blocks_of(size)} * work_group,
@@ -93,8 +93,8 @@ void PartitionPass::scan(const Buffer& counts, std::uint32_t rays, TimedKernels&
     device_.flush();
 }
 
-// The copy is queued only when the kernels are done: NVIDIA's GPUs make copies to the host one after another, and a
-// copy that is queued behind kernels would hold up the copies of other queues, too.
+// The copy is queued only when the kernels are done: NVIDIA's GPUs make copies to the host one after another. A copy
+// that is queued behind kernels would delay the copies of other queues, too.
 kernel::RayCount PartitionPass::read_total(const Buffer& counts, std::uint32_t rays, const TimedKernels& timed) {
     wait_for(timed.back().second);
     read_total_.start(counts, sizeof(kernel::RayCount), rays * sizeof(kernel::RayCount));
@@ -104,22 +104,23 @@ kernel::RayCount PartitionPass::read_total(const Buffer& counts, std::uint32_t r
 
 std::optional<PartitionSizes> PartitionPass::trace_counted(const Input& input, TimedKernels& timed) {
     if (auto sizes = try_counted(input, timed)) return sizes;
-    for (const auto& [time, kernel] : timed) wait_for(kernel);  // throws if the reason is a fault, not the memory
-    memory_.release_counted();                                  // a smaller batch needs the memory
+    for (const auto& [time, kernel] : timed)
+        wait_for(kernel);       // throws if the reason is a fault and not missing memory
+    memory_.release_counted();  // a smaller batch needs the memory
     deep_rays_.release();
     return {};
 }
 
 std::optional<PartitionSizes> PartitionPass::try_counted(const Input& input, TimedKernels& timed) {
     PartitionSizes sizes;
-    deep_rays_.release();  // other rays come first
+    deep_rays_.release();  // its memory is needed for all rays first
     if (!memory_.reserve_rays(input.rays)) return {};
     place_candidates(input, timed);
     sizes.candidates = read_total(memory_.candidate_places(), input.rays, timed).segments;
     if (!memory_.reserve_candidates(sizes.candidates)) return {};
     count_segments(input, sizes.candidates, timed);
     sizes.total = read_total(memory_.offsets(), input.rays, timed);
-    // The flag may also be set by very many words; then the list of deep rays will be empty.
+    // Very many words look like the flag, too; then the list of deep rays will be empty.
     has_deep_rays_ = !other_evaluation_ && sizes.total.words >= DEEP_WORDS;
     if (has_deep_rays_) {
         sum_segments(input, 0, timed);
@@ -136,7 +137,7 @@ std::optional<PartitionSizes> PartitionPass::try_counted(const Input& input, Tim
 
 std::optional<PartitionSizes> PartitionPass::capacity_for(std::uint32_t rays) const {
     if (!memory_.holds_rays(rays) || has_deep_rays_) return {};
-    // The larger of both averages counts: a picture may well have two batches that differ.
+    // The larger of the two averages counts, because the two batches of a picture may differ.
     const auto expected = [&](double Average::*what) {
         return static_cast<std::uint64_t>(std::max(average_.*what, average_before_.*what) * rays);
     };
@@ -172,8 +173,8 @@ void PartitionPass::place_candidates(const Input& input, TimedKernels& timed) {
     scan(places, input.rays, timed);
 }
 
-// Kernel 1, the other steps: lists the candidates, and counts each one's segments. `candidates`: the number of
-// work-items.
+// Kernel 1, the other steps: lists the candidates, and counts the segments of each candidate. `candidates`: the number
+// of work-items.
 void PartitionPass::count_segments(const Input& input, std::uint32_t candidates, TimedKernels& timed) {
     const BatchBuffers& batch = input.batch;
     const Buffer& tile_nodes = input.work == Work::tiles ? batch.tile_nodes : no_buffer_;

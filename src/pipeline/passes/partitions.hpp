@@ -1,12 +1,12 @@
-// Partition pass: every partition of a batch's rays, in five kernels:
+// Partition pass: makes every partition of a batch's rays by five kernels:
 //
 //   1 count segments -> 2 store segments -> 3 weave -> 4 evaluate -> 5 shade
 //
-// There are two ways to run them. Either the host reads between the kernels how much memory the rays need and allocates
-// exactly that (trace_counted). Or all kernels are queued at once into the buffers at hand (trace_queued). Then the
-// kernels write nothing if the rays need more than the capacity that their frame states, or if a ray is deep; the
-// batch's report says how much they need. Deep rays take kernels of their own in place of 3 and 4 (deep_rays.hpp), when
-// their number is known.
+// They run in one of two modes. Either the host reads between the kernels how much memory the rays need and allocates
+// exactly this memory (trace_counted). Or all kernels are queued at once, with the existing buffers (trace_queued).
+// Then the kernels write nothing if the rays need more than the capacity that their frame states, or if a ray is deep;
+// the batch's report has the sizes that the rays need. Once the number of deep rays is known, other kernels replace
+// kernels 3 and 4 for them (deep_rays.hpp).
 #pragma once
 
 #include <functional>
@@ -24,8 +24,8 @@
 
 namespace csgrt {
 
-/// Launches kernels 1 to 5 for a batch, and kernel 6 for a list. It owns the buffers between them, and remembers how
-/// many segments rays had, to size the buffers of later batches.
+/// The pass launches kernels 1 to 5 for a batch, and kernel 6 for a list. It owns the buffers between them. It
+/// remembers how many segments rays had, to predict the sizes of later batches.
 class PartitionPass {
 public:
     /// The input of the kernels. The batch's frame and lists are uploaded already.
@@ -36,26 +36,27 @@ public:
         std::uint32_t rays;
     };
 
-    /// Compiles its kernels. Throws Error (device_fault).
+    /// Compiles the kernels. Throws Error (device_fault).
     PartitionPass(Device& device, const CompiledScene& scene, const RecordConverter& records, const Settings& settings);
 
-    /// Takes another scene, which the pass's programs can draw (see draws()). Both arguments must outlive the pass.
+    /// Sets another scene, which the pass's programs can draw (see draws()). The two arguments must outlive the pass.
     void set_scene(const CompiledScene& scene, const RecordConverter& records);
 
     /// Runs kernels 1 to 4. The frame's capacities are COUNT_MAX. Waits for the counts only. Returns the sizes that the
-    /// rays need; nothing if these do not fit the memory: then the caller takes a smaller batch.
+    /// rays need; nullopt if they do not fit the memory: then the caller makes a smaller batch.
     std::optional<PartitionSizes> trace_counted(const Input& input, TimedKernels& timed);
-    /// The capacity of the buffers at hand; nothing if it would probably be too small for so many rays, by the average
-    /// of earlier rays.
+    /// The capacity of the existing buffers; nullopt if it is probably too small for so many rays, by the average of
+    /// earlier rays.
     std::optional<PartitionSizes> capacity_for(std::uint32_t rays) const;
-    /// Queues kernels 1 to 4 into the buffers at hand. The frame's capacities are `capacity`. Does not wait.
+    /// Queues kernels 1 to 4 with the existing buffers. The frame's capacities are `capacity`. Does not wait.
     void trace_queued(const Input& input, const PartitionSizes& capacity, TimedKernels& timed);
 
     /// Queues kernel 5: the pixels of the rays that were traced last. Does not wait.
     void shade(const Input& input, const Buffer& picture, TimedKernels& timed);
     /// Queues the sum of the tallies of the rays that were traced last. Does not wait.
     void sum_tallies(std::uint32_t rays, TimedKernels& timed);
-    /// Queues the copy of the sums to the host, once their kernels are done and before the next sum_tallies().
+    /// Queues the copy of the sums to the host. To be called when their kernels are done, before the next
+    /// sum_tallies().
     void copy_tallies() { read_.copy(); }
     /// Adds the copied sums up. Waits for the copy.
     void add_tallies(PipelineCounts& counts);
@@ -64,11 +65,10 @@ public:
     /// Adds the sizes to the counts, and remembers them for capacity_for().
     void add_sizes(const PartitionSizes& needed, std::uint32_t rays, PipelineCounts& counts);
 
-    /// Queues the kernel that makes the rays of a grid, which the batch's frame has (put_grid). Returns the kernel's
-    /// event.
+    /// Queues the kernel that makes the rays of the grid in the batch's frame (put_grid). Returns the kernel's event.
     Event make_rays(const BatchBuffers& batch, std::uint32_t rays, RayRange range);
-    /// Runs kernel 6: the rows of the listed rays that the last trace_counted() has traced; `first`: the first ray's
-    /// number. Waits for their number only. False: there is not enough memory.
+    /// Runs kernel 6, which writes the rows of the rays of the last trace_counted(). `first`: the first ray's number.
+    /// Waits for the number of rows only. Returns false if there is not enough memory.
     bool write_rows(const Input& input, std::uint64_t first, Fields fields, TimedKernels& timed);
     /// Starts to copy the rows to the host, once their kernels are done.
     void start_copy(std::uint32_t rays) {
@@ -103,7 +103,7 @@ private:
     void sum_blocks(const Buffer& entries, std::uint32_t size, Buffer& sums, TimedKernels& timed);
     void scan(const Buffer& counts, std::uint32_t rays, TimedKernels& timed);
     kernel::RayCount read_total(const Buffer& counts, std::uint32_t rays, const TimedKernels& timed);
-    /// Whether the rays go in packets. Pixels that are listed one by one lie anywhere, so they do not.
+    /// Whether the rays are traced in packets. Pixels that are listed one by one may lie anywhere, so they are not.
     bool in_packets(const Input& input) const { return input.work != Work::pixels && packet_candidates_; }
     RowPass::Input rows_of(const Input& input, std::uint64_t first) {
         return {input.batch.frame,
@@ -137,13 +137,13 @@ private:
     RowPass rows_;
     Buffer no_buffer_;  ///< a null pointer
     Buffer scan_sums_buffer_;
-    bool has_deep_rays_ = false;        ///< perhaps: the same
+    bool has_deep_rays_ = false;        ///< null if the scene has no such solids
     Average average_, average_before_;  ///< of the last rays whose sizes are known, and of the rays before
     std::size_t tally_count_ = 0;       ///< of sums
     QueuedRead read_, read_total_;
 };
 
-/// A kernel in place of kernel 4, for the laboratory of methods (bench/methods). It takes deep rays, too.
+/// A kernel in place of kernel 4, for the laboratory of methods (bench/methods). It evaluates deep rays, too.
 struct Evaluation {
     std::string name, source;  ///< the source is appended to all kernels' sources, and may use them
     /// Queues the kernel for the rays' `segments`.

@@ -12,12 +12,12 @@ namespace csgrt {
 
 /// Work-items of a group, for kernels whose work-items take about equally long.
 inline constexpr std::size_t work_group = 64;
-/// Work-items of a group for first hits and culling, whose times differ. A processor's thread takes whole groups: 64
-/// work-items of which one takes long would keep it busy after all others have ended, and a loop over work-items keeps
-/// the private memory of each.
+/// Work-items of a group for first hits and culling, whose work-items take different times. A processor's thread runs
+/// whole groups. With 64 work-items, one slow work-item would keep a thread busy after all other threads have ended,
+/// and the thread would need the private memory of 64 work-items.
 std::size_t divergent_group(const Device& device);
 
-/// Do a picture's rays go side by side in a processor's vectors, `packet_rays` a work-item?
+/// Are a picture's rays traced side by side in a processor's vectors, `packet_rays` a work-item?
 bool traces_packets(const Device& device, const Settings& settings);
 inline constexpr std::uint32_t packet_rays = 8;  // PACKET of kernels/packet/packet.h
 
@@ -33,7 +33,7 @@ struct ProgramNeeds {
     }
 };
 
-/// Can a program of this device that was made for `one` draw `other`? The native device's can draw all.
+/// Can a program of this device that was made for `one` draw `other`? The native device's programs can draw all scenes.
 bool draws(const Device& device, const ProgramNeeds& one, const ProgramNeeds& other);
 
 /// The options (-D) that a program for such scenes is compiled with.

@@ -1,5 +1,4 @@
-// Row pass (kernel 6): the rows of a list's batch, which kernels 1 to 4 have traced. While they are copied to the host,
-// the next batch may be traced.
+// Row pass (kernel 6): writes the rows of a list's batch, which kernels 1 to 4 have traced.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +13,7 @@
 
 namespace csgrt {
 
-/// Launches kernel 6, and copies its arrays to the host while the next batch is traced.
+/// The pass launches kernel 6, and copies its arrays to the host while the next batch is traced.
 class RowPass {
 public:
     /// Takes the kernels of kernels/6_rows.cl from `program`. All arguments must outlive the pass.
@@ -33,32 +32,33 @@ public:
         std::uint64_t first;  ///< number of the batch's first ray in the list
         std::uint32_t count;
     };
-    /// Counts the rays' rows; the caller makes sums of them. Null: there is not enough memory.
+    /// Counts the rays' rows; the caller scans the counts. Returns null if there is not enough memory.
     const Buffer* count(const Input& input, TimedKernels& timed);
-    /// Writes the rows, `total` of them. False: there is not enough memory.
+    /// Writes the rows. `total`: the sum of the counts. Returns false if there is not enough memory.
     bool write(const Input& input, const kernel::RayCount& total, Fields fields, const SceneTables& scene,
                TimedKernels& timed);
-    /// Whether overlaps are wanted, and there are any: then their claimants have to be found, either by a kernel (both
-    /// of the next calls), or by the host (append_overlaps) if there are deep rays.
+    /// Whether overlaps are wanted and exist. Then their claimants have to be found by a kernel (the next two
+    /// functions) or, if there are deep rays, by the host (append_overlaps).
     bool has_overlaps() const { return fields_.overlaps && total_.words > 0; }
-    /// Counts claims; the caller makes sums of the counts, overlaps() of them. Null: there is not enough memory.
+    /// Counts the claims of each overlap; the caller scans the counts, overlaps() in number. Returns null if there is
+    /// not enough memory.
     const Buffer* count_claimants(const Input& input, const SceneTables& scene, TimedKernels& timed);
-    /// Lists the claimants. `claims`: the sum. False: there is not enough memory.
+    /// Lists the claimants. `claims`: the sum of the counts. Returns false if there is not enough memory.
     bool list_claimants(const Input& input, std::uint32_t claims, const SceneTables& scene, TimedKernels& timed);
-    /// Starts to copy the rows, once their kernels are done.
+    /// Starts to copy the rows. To be called when their kernels are done.
     void start_copy();
     /// Reads overlaps and claimants, and waits for them.
     void read_overlaps();
     /// Finds the claimants on the host, where no kernel has listed them.
     void append_overlaps(const TracedBatch& traced);
-    /// The rows whose copy was started last; they stay until the next copy. Waits.
+    /// Waits for the rows whose copy was started last, and returns them. They are valid until the next copy.
     RowView wait();
     /// Drops the rows.
     void cancel() noexcept;
-    /// Whether a copy was started, and nobody has waited for it.
+    /// Whether a copy was started, and wait() was not called since.
     bool is_underway() const { return is_underway_; }
 
-    /// The number of partitions that overlap, of the rows that were written last.
+    /// The number of overlapping partitions in the batch whose rows were written last.
     std::uint32_t overlaps() const { return total_.words; }
 
     std::uint64_t held() const;

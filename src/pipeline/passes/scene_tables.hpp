@@ -14,9 +14,9 @@ class SceneTables {
 public:
     SceneTables(Device& device, const CompiledScene& scene, const RecordConverter::Tables& tables);
 
-    /// Whether another scene has the same solids with the same transforms.
+    /// Whether take() can take a scene: it has the same solids with the same transforms.
     bool takes(const CompiledScene& scene) const;
-    /// Takes such a scene: copies the tables that differ. Waits.
+    /// Takes a scene for which takes() is true: copies the tables that differ. Waits.
     void take(const CompiledScene& scene, const RecordConverter::Tables& tables);
     /// Uploads a frame's lights, as the kernels' records. Returns when the upload is done.
     void set_lights(const std::vector<std::byte>& lights);

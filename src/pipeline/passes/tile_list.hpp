@@ -1,5 +1,5 @@
-// Tile list, on a GPU, for batches whose pixels are row-major: the tiles that see anything, listed without the host,
-// and the background of all others (kernels/tile_list.cl).
+// Tile list: on a GPU, for batches whose pixels are row-major, kernels list the tiles that see anything and write the
+// background of the others (kernels/tile_list.cl).
 #pragma once
 
 #include <array>
@@ -9,26 +9,26 @@
 
 namespace csgrt {
 
-/// Launches the kernels of kernels/tile_list.cl. The list is made on the device, so the host queues the drawing kernels
-/// without waiting for it.
+/// The pass launches the kernels of kernels/tile_list.cl. The list is made on the device, so the host can queue the
+/// drawing kernels without waiting for the list.
 class TileListPass {
 public:
     explicit TileListPass(Device& device) : device_(device) {}
 
-    /// Compiles its kernels.
+    /// Compiles the kernels.
     void build();
     bool is_built() const { return list_.has_value(); }
 
     /// Lists the batch's tiles whose cost is not 0 in `buffers.tiles`, the most expensive first, and counts them in the
-    /// report, which is clear. The most expensive are listed in parts (PART_SHIFT) if there are no more than
-    /// `most_in_parts` of them and other tiles see nothing. Only first_hits knows parts: for other kernels
-    /// `most_in_parts` is 0. Does not wait. Returns its two kernels' events.
+    /// report, which must be clear. The most expensive tiles are listed in parts (PART_SHIFT) if there are no more than
+    /// `most_in_parts` of them and enough other tiles see nothing. Only first_hits can draw parts: for other kernels
+    /// `most_in_parts` is 0. Does not wait. Returns the events of the two kernels.
     std::array<Event, 2> list(const RayBatch& batch, BatchBuffers& buffers, std::uint32_t most_in_parts);
     /// Writes the background of the tiles whose cost is 0 into a row-major picture. Does not wait.
     Event write_background(const kernel::Frame& frame, const RayBatch& batch, const Buffer& costs,
                            const kernel::ChannelValues& background, std::uint32_t channels, const Buffer& picture);
 
-    /// The number of expensive tiles above which they keep the device busy as they are.
+    /// The number of expensive tiles that keep the device busy even as whole tiles.
     static std::uint32_t most_in_parts(const Device& device) { return 4 * device.info().compute_units; }
 
 private:

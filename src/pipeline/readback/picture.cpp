@@ -9,7 +9,7 @@
 namespace csgrt {
 namespace {
 
-constexpr std::size_t pixels_a_thread = 1 << 17;  // fewer are copied sooner than a thread starts
+constexpr std::size_t pixels_a_thread = 1 << 17;  // fewer pixels are copied in less time than a thread takes to start
 
 constexpr std::uint32_t not_drawn = UINT32_MAX;
 
@@ -61,8 +61,8 @@ void put_tile(const ChannelMemory& channel, std::size_t width, const Rectangle& 
     }
 }
 
-/// Adds a rectangle that lies beneath the others. It is joined to the last if the pixels around both take less time
-/// than another copy.
+/// Adds a rectangle that lies beneath the others. It is joined with the last rectangle if copying the pixels around the
+/// two takes less time than another copy.
 void add(std::vector<Rectangle>& all, const Rectangle& next) {
     constexpr std::size_t copy_cost = 1 << 12;  // pixels: docs/experiments.md
     if (!all.empty()) {
@@ -115,7 +115,7 @@ std::vector<Rectangle> take_rectangles(const kernel::Frame& frame, std::uint32_t
         std::size_t right = tiles.columns, left = next_covered(needed, 0, right);
         if (left == right) continue;
         while (!needed[right - 1]) --right;
-        // Rectangles begin at whole lines of the processor's cache: a GPU writes these a quarter sooner
+        // Rectangles begin at whole lines of the processor's cache: so a GPU takes a quarter less time to write them
         // (docs/experiments.md).
         if (left > 0) left -= (tiles.left + left) % 2;
         if (right < tiles.columns) right += (tiles.left + right) % 2;

@@ -11,7 +11,8 @@ namespace csgrt {
 
 class RegisteredMemory;
 
-/// One channel of an image: width x height floats, row by row from the top left, and its value where nothing is seen.
+/// One channel of an image: width x height floats, row by row from the top left, and the value of pixels that see
+/// nothing.
 struct ChannelMemory {
     float* pixels = nullptr;
     float background = 0;
@@ -43,8 +44,9 @@ void put_tiles(const kernel::Frame& frame, std::uint32_t first, std::uint32_t en
 /// Writes the background into the covered tiles outside of the frame's screen bounds.
 void clear_around(const kernel::Frame& frame, const RenderTarget& target);
 
-/// Returns the rectangles that a GPU copies of a batch: few rectangles that hold the tiles that show something and
-/// those that were covered before. `shown`: one a tile, 1 if it shows something, else 0. It replaces `covered`.
+/// Returns the rectangles of a batch that a GPU copies: a few rectangles that contain all tiles that show something and
+/// all tiles that were covered before. `shown`: one byte a tile, 1 if the tile shows something, else 0. `shown`
+/// replaces the batch's part of `covered`.
 std::vector<Rectangle> take_rectangles(const kernel::Frame& frame, std::uint32_t first, std::uint32_t end,
                                        std::span<const std::uint8_t> shown, const RenderTarget& target);
 

@@ -1,5 +1,5 @@
-// Registered memory: a picture's memory that GPUs know and copy pixels straight into, for pictures that are drawn again
-// and again.
+// Registered memory: a picture's memory that is registered with GPUs, which then copy pixels straight into it. It is
+// for pictures that are drawn again and again.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 
 namespace csgrt {
 
-/// The registrations of one picture's memory with the GPUs that draw into it. They end with the object.
+/// The registrations of one picture's memory with the GPUs that draw into it. The destructor ends the registrations.
 class RegisteredMemory {
 public:
     /// Refers to all channels of a picture, `bytes` from `data` on. The memory must outlive the object.
@@ -19,7 +19,7 @@ public:
     /// Registers the memory with a device, which takes a tenth of a second a gigabyte. If the driver refuses, the
     /// device's pixels go through staging memory.
     void add(const Device& device);
-    /// Whether a device that does not answer may still write there.
+    /// Whether a device that does not respond may still write into the memory.
     bool has_lost() const {
         return std::ranges::any_of(registered_, [](const auto& entry) { return entry.second.is_lost(); });
     }
@@ -28,8 +28,7 @@ public:
 private:
     void* data_;
     std::size_t bytes_;
-    std::map<cl_context, HostRegistration> registered_;  ///< each keeps its context, so that no other context gets its
-                                                         ///< address
+    std::map<cl_context, HostRegistration> registered_;  ///< each keeps its context, so addresses stay unique
 };
 
 }  // namespace csgrt

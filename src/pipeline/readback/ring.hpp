@@ -1,7 +1,7 @@
 // Readback ring: copies the pixels of a GPU's batches into the picture, while the GPU draws the next batches.
 //
-// A batch is drawn into a row-major picture on the device. The rectangles of it that show something, or did so before,
-// are copied into the target (device/copy_feed.hpp).
+// A batch is drawn into a row-major picture on the device. The rectangles of this picture that show something, or did
+// so before, are copied into the target (device/copy_feed.hpp).
 #pragma once
 
 #include <future>
@@ -22,23 +22,25 @@ public:
         Buffer buffer;
         std::shared_future<void> copied;  ///< valid while the pixels are copied
         bool is_in_use = false;           ///< by a batch that is not collected yet
-        std::uint64_t used = 0;           ///< time of the last collection, as a number of batches
+        std::uint64_t used = 0;           ///< the number of batches that were collected when this picture was
     };
 
     explicit ReadbackRing(Device& device);
 
-    /// Memory for a batch's picture, until collect() or cancel(). Null if batches use all of it or the device has no
-    /// more.
+    /// Memory for a batch's picture, until collect() or cancel(). Null if all pictures are in use or the device has no
+    /// more memory.
     DevicePicture* acquire(std::size_t bytes);
     static void cancel(DevicePicture& picture) noexcept { picture.is_in_use = false; }
-    /// Returns when the pixels that were in it are copied, so that kernels may write it. Throws if the copy failed.
+    /// Returns when the picture's earlier pixels are copied, so that kernels may write into it. Throws if the copy
+    /// failed.
     static void wait(DevicePicture& picture);
 
-    /// Queues the copies of the batch's pixels, which are drawn, into the target. `shown`: one byte a tile, not 0 if it
-    /// shows something. May return before the copies are made: the target must live until finish() or abandon().
+    /// Queues the copies of the batch's pixels into the target; the pixels must be drawn. `shown`: one byte a tile, not
+    /// 0 if the tile shows something. May return before the copies are made: the target must live until finish() or
+    /// abandon().
     void collect(const kernel::Frame& frame, const RayBatch& batch, std::span<const std::uint8_t> shown,
                  DevicePicture& picture, const RenderTarget& target);
-    /// Returns when all copies are made. Throws if one failed.
+    /// Returns when all copies are made. Throws if a copy failed.
     void finish();
     /// Returns when all copies are made or have failed, without throwing. Then no batch uses a picture any more.
     void abandon() noexcept;

@@ -51,16 +51,16 @@ AsynchronousSchedule::Batch* AsynchronousSchedule::with(Stage stage) {
     return found == batches_.end() ? nullptr : &*found;
 }
 
-// Every partition: the kernels of all batches share buffers, so they are queued one after another, except for culling.
-// First hits: each batch has a queue of its own, so that the next batch's kernels begin while the longest rays of the
-// last are drawn.
+// Every partition: the kernels of all batches share buffers, so they use one queue, except for culling. First hits:
+// each batch has its own queue, so that the next batch's kernels begin while the longest rays of the last batch are
+// drawn.
 std::size_t AsynchronousSchedule::queue_of(const Batch& batch, bool every_partition) const {
     return every_partition ? 1 : static_cast<std::size_t>(&batch - batches_.data());
 }
 
 void AsynchronousSchedule::render(const FrameJob& job) {
     if (std::exchange(drew_every_partition_, job.frame.every_partition != 0) != (job.frame.every_partition != 0)) {
-        reclaim();  // the memory holds the buffers of one mode only
+        reclaim();  // the memory suffices for the buffers of one mode only
         passes_.release();
     }
     is_memory_short_ = false;
@@ -81,11 +81,11 @@ void AsynchronousSchedule::render(const FrameJob& job) {
         }
     }
     if (overflown_.empty()) return;
-    ring_.finish();  // whole tiles are written before single pixels of them
+    ring_.finish();  // whole tiles are written before their single pixels
     pixels_.draw_pixels(job, std::exchange(overflown_, {}));
 }
 
-// The batch that goes on next: first one that needs no wait, then the oldest. None: the frame is drawn.
+// The batch whose next step runs: a batch that needs no wait, else the oldest batch. Null: the frame is drawn.
 AsynchronousSchedule::Batch* AsynchronousSchedule::next(const FrameJob& job) {
     Batch* const free = is_memory_short_ || job.source.is_empty() ? nullptr : with(Stage::free);
     if (job.frame.every_partition) {
@@ -110,7 +110,7 @@ AsynchronousSchedule::Batch* AsynchronousSchedule::next(const FrameJob& job) {
     return done == batches_.end() ? next(job) : &*done;
 }
 
-// Starts the source's next batch. False: the memory has no room for another batch beside the one underway.
+// Starts the source's next batch. Returns false if the memory does not suffice for a second batch.
 bool AsynchronousSchedule::start_next(Batch& batch, const FrameJob& job) {
     const bool is_alone = is_idle();
     const RayBatch rays = job.source.next();
@@ -131,7 +131,7 @@ bool AsynchronousSchedule::start_next(Batch& batch, const FrameJob& job) {
     return true;
 }
 
-// The step free -> culled, or of first hits free -> shaded. False: the batch does not fit the memory.
+// The step free -> culled or, for first hits, free -> shaded. Returns false if the batch does not fit the memory.
 bool AsynchronousSchedule::start(Batch& batch, const FrameJob& job, const RayBatch& rays) {
     const bool every = job.frame.every_partition;
     batch.rays = rays;
@@ -191,14 +191,14 @@ void AsynchronousSchedule::write_background(Batch& batch, const FrameJob& job) {
         static_cast<std::uint32_t>(job.target.channels.size()), batch.picture->buffer));
 }
 
-// The step culled -> traced: kernels 1 to 4 are queued behind those of the batch before, if the buffers at hand will
-// probably suffice. Else the batch before is collected first, and this batch's memory is counted.
+// The step culled -> traced: kernels 1 to 4 are queued behind the kernels of the batch before, if the existing buffers
+// will probably suffice. Else the batch before is collected first, and this batch's memory is counted.
 void AsynchronousSchedule::trace(Batch& batch, const FrameJob& job) {
     wait_for(batch.culling.back());
     batch.report_read.copy();
     batch.frame.ray_count = batch.report().entries * tile_rays;
     Batch& before = *other(batch);
-    if (before.stage == Stage::shaded && is_done(before.end())) {  // the pixels need not wait for anything
+    if (before.stage == Stage::shaded && is_done(before.end())) {  // the pixels are ready
         collect(before, job);
         if (batch.stage != Stage::culled) return;
     }
@@ -218,7 +218,7 @@ void AsynchronousSchedule::trace(Batch& batch, const FrameJob& job) {
 
 // The step traced -> shaded, when the batch before is collected.
 void AsynchronousSchedule::shade(Batch& batch, const FrameJob& job) {
-    if (!acquire_picture(batch, job)) {  // the host waits for memory, so queued work is not waited for again
+    if (!acquire_picture(batch, job)) {  // the host has to wait for memory, so it waits for all queued work
         passes_.device.finish();
         batch.stage = Stage::culled;
         trace_alone(batch, job);
@@ -235,7 +235,7 @@ void AsynchronousSchedule::shade(Batch& batch, const FrameJob& job) {
     batch.stage = Stage::shaded;
 }
 
-// The step shaded -> free, or again traced if the capacity was too small.
+// The step shaded -> free; or back to traced if the capacity was too small.
 void AsynchronousSchedule::collect(Batch& batch, const FrameJob& job) {
     is_memory_short_ = false;
     job.frame.every_partition ? collect_partitions(batch, job) : collect_first_hits(batch, job);
@@ -245,7 +245,7 @@ void AsynchronousSchedule::collect_first_hits(Batch& batch, const FrameJob& job)
     wait_for(batch.end());
     batch.report_read.copy();
     add_times(batch.drawing, job.counts);
-    // The read goes through the copy queue: a read that is queued behind kernels would hold up all copies.
+    // The read uses the copy queue: a read that is queued behind kernels would delay all copies.
     const std::vector<std::uint32_t> numbers =
         batch.buffers.overflown.read_beside<std::uint32_t>(batch.report().overflows);
     overflown_.insert(overflown_.end(), numbers.begin(), numbers.end());
@@ -268,8 +268,8 @@ void AsynchronousSchedule::collect_partitions(Batch& batch, const FrameJob& job)
     read_pixels(batch, job);
 }
 
-// Nothing was written: the rays need more than the buffers at hand hold. The other batch is given back, and this one is
-// traced again in memory that is counted.
+// Nothing was written, because the rays need more than the existing buffers. The other batch is given back to the
+// source, and this batch is traced again with counted memory.
 void AsynchronousSchedule::retry(Batch& batch, const FrameJob& job) {
     passes_.device.finish();
     ++job.counts.retried;
@@ -282,10 +282,10 @@ void AsynchronousSchedule::retry(Batch& batch, const FrameJob& job) {
     trace_alone(batch, job);
 }
 
-// The step culled -> traced, in memory that is counted, while no other batch is underway; or -> free, and the source
-// gets the batch back in halves.
+// The step culled -> traced with counted memory, while no other batch is underway. If the memory does not suffice, the
+// batch becomes free, and the source gets its rays back in halves.
 void AsynchronousSchedule::trace_alone(Batch& batch, const FrameJob& job) {
-    if (!try_alone(batch, job)) {  // memory that is kept for later is taken before a smaller batch
+    if (!try_alone(batch, job)) {  // memory that is kept for later is given up before the batch is halved
         for (Batch& one : batches_)
             if (&one != &batch) one.buffers.release();
         ring_.release(batch.picture);

@@ -1,6 +1,6 @@
-// Asynchronous schedule, for GPUs: two batches are underway. While one's kernels run, the other's are queued, and
-// pixels of earlier batches are copied. Otherwise the device would be idle whenever the host waits for an answer before
-// it queues more.
+// Asynchronous schedule: on GPUs two batches are underway. While the kernels of one batch run, the kernels of the other
+// are queued, and pixels of earlier batches are copied. Otherwise the device would be idle while the host waits for
+// results before it queues more.
 //
 // clang-format off
 //            start                 trace              shade             collect
@@ -9,8 +9,8 @@
 //                       tile list           1 to 4                                  (readback/ring.hpp)
 // clang-format on
 //
-// A batch of first hits goes from free to shaded at once: none of its kernels needs the host to read an earlier one's
-// result.
+// A batch of first hits goes from free to shaded in one step: the host need not read the result of a kernel before it
+// queues the next.
 #pragma once
 
 #include <array>
@@ -24,8 +24,8 @@
 
 namespace csgrt {
 
-/// Draws frames on a GPU. Each of its two batches goes through the stages above; the schedule advances the batch that
-/// needs no wait, so that the device always has queued work.
+/// The schedule draws frames on a GPU. Each of its two batches goes through the stages above. It advances the batch
+/// that needs no wait, so that the device always has queued work.
 class AsynchronousSchedule {
 public:
     /// Draws whole tiles by `passes`; `pixels` traces single pixels.
@@ -33,15 +33,15 @@ public:
 
     /// Compiles the kernels that every frame needs.
     void prepare() { passes_.tile_list(); }
-    /// Draws all rays that the job's source gives. Some pixels may come into the target until finish().
+    /// Draws all rays that the job's source gives. Some pixels may be written into the target later, until finish().
     void render(const FrameJob& job);
     /// Returns when all pixels are in the target. Throws if a copy failed.
     void finish() { ring_.finish(); }
-    /// Returns when nothing more comes into the target, whatever was underway.
+    /// Returns when nothing more will be written into the target, whatever was underway.
     void abandon() noexcept;
 
     std::uint64_t held() const;
-    /// Gives memory back that no batch uses; false: there is none.
+    /// Gives memory back that no batch uses. Returns false if there was none.
     bool reclaim();
 
 private:
@@ -52,14 +52,14 @@ private:
 
         Stage stage = Stage::free;
         RayBatch rays;
-        kernel::Frame frame{};  ///< of all rays of the batch; after culling, of those in tiles that may see the scene
+        kernel::Frame frame{};  ///< of all rays of the batch; after culling, of the rays in tiles that may see
         BatchBuffers buffers;
         ReadbackRing::DevicePicture* picture = nullptr;
         QueuedUpload frame_upload;
         QueuedRead report_read;
         std::vector<Event> culling;  ///< kernel 0, the list's kernels, the background
-        TimedKernels drawing;        ///< kernels 1 to 5, or that of first hits
-        PartitionSizes capacity;     ///< of the buffers that kernels 1 to 4 were queued into
+        TimedKernels drawing;        ///< kernels 1 to 5, or the kernel of first hits
+        PartitionSizes capacity;     ///< of the buffers with which kernels 1 to 4 were queued
 
         const Event& end() const { return drawing.empty() ? culling.back() : drawing.back().second; }
         const kernel::BatchReport& report() { return report_read.wait<kernel::BatchReport>(1).front(); }
@@ -99,7 +99,7 @@ private:
     ReadbackRing ring_;
     std::vector<std::uint32_t> overflown_;  ///< first hits: rays that have to be traced as single pixels
     bool drew_every_partition_ = false;     ///< in the last frame
-    bool is_memory_short_ = false;          ///< no other batch starts until one is collected
+    bool is_memory_short_ = false;          ///< no other batch starts until a batch is collected
 };
 
 }  // namespace csgrt

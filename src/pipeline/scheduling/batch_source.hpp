@@ -1,4 +1,4 @@
-// Batch source: makes batches, one after another, of the ranges of a frame's or a list's rays.
+// Batch source: divides the ranges of a frame's or a list's rays into batches.
 #pragma once
 
 #include <cstdint>
@@ -12,23 +12,23 @@
 
 namespace csgrt {
 
-/// Returns the next rays; empty: there are none left.
+/// Returns the next range of rays; empty: no rays are left.
 using TakeRays = std::function<RayNumbers()>;
 
-/// Gives out batches of rays, each as large as the memory allows. A batch that does not fit is given back and comes
-/// again, whole or in halves.
+/// The source returns batches of rays, each as large as the memory allows. A batch that does not fit is given back, and
+/// the source returns its rays again, whole or in halves.
 class BatchSource {
 public:
     /// Makes a source. `most`: the most rays of a batch, read when a range is taken. `row`: the rays of a row of the
-    /// screen's tiles, so that a batch is whole rows, or a part of one; 0: the rays are a list's.
+    /// screen's tiles, so that a batch is whole rows, or a part of one row; 0: the rays of a list.
     BatchSource(TakeRays take, std::function<std::uint64_t()> most, std::uint64_t row)
         : take_(std::move(take)), most_(std::move(most)), row_(row) {}
 
-    /// Takes the next range if nothing is left of the last one.
+    /// Returns true if no rays are left. Takes the next range if nothing is left of the last range.
     bool is_empty();
-    /// Returns the next batch, without rays if there are none left. `most`: a further limit.
+    /// Returns the next batch; a batch without rays if no rays are left. `most`: a further limit.
     RayBatch next(std::uint64_t most = std::numeric_limits<std::uint64_t>::max());
-    /// Gives a batch back: it will come again before all others. Of several the last comes first.
+    /// Gives a batch back: next() will return it before all other rays. Of several batches the last comes first.
     void give_back(const RayBatch& batch) { left_.push_back({batch.first, std::uint64_t{batch.first} + batch.rays}); }
     /// Gives a batch back in two halves. Throws Error (out_of_memory) with `budget` in its message if the batch has one
     /// ray.

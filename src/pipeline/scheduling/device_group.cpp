@@ -30,9 +30,10 @@ DeviceGroup::DeviceGroup(const std::vector<FoundDevice>& devices, const Compiled
     setup_ms_ = milliseconds_since(start);
 }
 
-// The parts of a frame. A device's share of first hits comes in 8 parts, since the cost of launches soon equals that of
-// rays. A share of every partition comes in 5, since the host waits in each (docs/experiments.md). One
-// device alone takes all rays at once, unless it copies the first pixels while it draws others.
+// The parts of a frame. A device's share of first hits is divided into 8 parts; in smaller parts launches would cost as
+// much as rays. A share of every partition is divided into 5 parts, since the host waits in each part
+// (docs/experiments.md). A single device gets all rays at once, unless it copies the first pixels while it draws
+// others.
 Parts DeviceGroup::parts_of(std::uint64_t rays, std::uint64_t row, std::size_t devices, bool every_partition) const {
     if (devices == 1 && (every_partition || !pipelines_.front()->is_asynchronous()))
         return Parts(rays, row, 1, rays, rays);
@@ -42,8 +43,8 @@ Parts DeviceGroup::parts_of(std::uint64_t rays, std::uint64_t row, std::size_t d
     return Parts(rays, row, devices, std::min(worth_launches, most), most);
 }
 
-// Each device has a thread. An exception of the first device that threw is thrown once all threads have stopped. `row`:
-// rays of a row of a picture's tiles.
+// Each device has a thread. If devices throw, the exception of the first device in order is rethrown once all threads
+// have stopped. `row`: rays of a row of a picture's tiles.
 void DeviceGroup::share(std::uint64_t rays, std::uint64_t row, bool every_partition, Watch* watch,
                         PipelineCounts& counts, const Work& work) {
     const std::size_t devices = rays <= tile_rays ? 1 : pipelines_.size();
@@ -82,7 +83,7 @@ void DeviceGroup::share(std::uint64_t rays, std::uint64_t row, bool every_partit
         counts += own;
     };
     {
-        JoinedThreads others;  // these wait for devices: not threads of the pool
+        JoinedThreads others;  // these threads wait for devices, so they are no threads of the pool
         while (others.size() + 1 < devices && others.add(draw)) {
         }
         draw();

@@ -1,5 +1,6 @@
-// Device group: one or several devices. Each has the scene and a pipeline of its own, and takes the next part of a
-// frame, or of a list of rays, when it is done with the last. No result of a ray depends on its device.
+// Device group: one or several devices that share the work of a call. Each device has the scene and its own pipeline.
+// It takes the next part of a frame or of a list when its last part is done. The result of a ray does not depend on the
+// device.
 #pragma once
 
 #include <functional>
@@ -14,8 +15,8 @@
 
 namespace csgrt {
 
-/// The devices that answer a call together. A faster device takes more parts of a frame; the pixels are the same, since
-/// each ray is computed alone.
+/// The devices that answer a call together. A faster device takes more parts of a frame. The pixels are the same, since
+/// each ray is computed independently.
 class DeviceGroup {
 public:
     /// Makes pipelines on these devices; `settings.device` is not read. The scene and the kernels must outlive the
@@ -26,27 +27,27 @@ public:
     /// A number that no other group of the process has, not 0.
     std::uint64_t number() const noexcept { return number_; }
 
-    /// Takes another scene for the next calls. `owner`: keeps it and its kernels alive.
+    /// Sets another scene for the next calls. `owner` keeps the scene and its records alive.
     void set_scene(const CompiledScene& scene, const RecordConverter& records, std::shared_ptr<const void> owner);
     /// Whether the compiled kernels can draw the scene.
     bool can_draw(const CompiledScene& scene) const;
-    /// The owner of the last set_scene() or keep(); null: neither was called.
+    /// The owner that the last set_scene() or keep() was given; null: no call yet.
     const std::shared_ptr<const void>& owner() const { return owner_; }
     void keep(std::shared_ptr<const void> owner) { owner_ = std::move(owner); }
     void prepare(bool every_partition);
-    /// Registers the memory of a picture that will be drawn into again with those GPUs that have room for it: `pixels`
-    /// floats of each channel, one channel after the other. The memory must outlive the result; the group need not.
+    /// Registers the memory of a picture that will be drawn again with the GPUs that have enough memory for this. The
+    /// memory is `pixels` floats for each channel, one channel after the other. The memory must outlive the result; the
+    /// group need not.
     std::shared_ptr<RegisteredMemory> register_memory(std::span<const ChannelMemory> channels, std::size_t pixels);
-    /// Draws a frame, as Pipeline::render does. Throws Error (interrupted), too, if `watch`, which may be null, says
-    /// so.
+    /// Draws a frame, as Pipeline::render does. Also throws Error (interrupted), if `watch`, which may be null, is
+    /// interrupted.
     void render(const PreparedFrame& prepared, const RenderTarget& target, Watch* watch, PipelineCounts& counts);
     void trace_list(const kernel::Frame& frame, const RayList& rays, RowReceiver& receiver, Watch* watch,
                     PipelineCounts& counts);
 
-    bool uses_driver() const;            ///< some device is not native
+    bool uses_driver() const;            ///< at least one device is not native
     std::string name() const;            ///< "A", or "A + B"
-    std::uint64_t device_bytes() const;  ///< of all devices: in buffers, and as much as drivers hold for registered
-                                         ///< memory
+    std::uint64_t device_bytes() const;  ///< of all devices: buffers, and what drivers hold for registered memory
     double build_ms() const;  ///< to set up the devices, and to compile the kernels of the device that took longest
 
 private:
@@ -58,7 +59,7 @@ private:
     void start_call();
     void drop_claims();
 
-    /// A claim on a device's memory: a driver holds as much as is registered, as long as it is registered.
+    /// The device memory that a driver holds for registered memory: as many bytes, as long as the memory is registered.
     struct Claim {
         std::weak_ptr<const RegisteredMemory> registered;
         Device* device;

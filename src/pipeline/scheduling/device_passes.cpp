@@ -11,7 +11,7 @@ DevicePasses::DevicePasses(Device& on, const CompiledScene& compiled, const Reco
 }
 
 void DevicePasses::set_scene(const CompiledScene& compiled, const RecordConverter& records) {
-    if (tables && !tables->takes(compiled)) tables.reset();  // there may be no room for both
+    if (tables && !tables->takes(compiled)) tables.reset();  // the memory may not suffice for the two scenes
     scene_ = &compiled;
     records_ = &records;
     const ProgramNeeds needs(compiled);

@@ -1,4 +1,4 @@
-// Device passes: one device with the scene on it, and the passes that its batches go through.
+// Device passes: the scene's tables on one device, and the passes that run a batch's kernels.
 #pragma once
 
 #include <functional>
@@ -14,7 +14,7 @@
 
 namespace csgrt {
 
-/// Called with the number of rays that were done. An exception of it ends the work.
+/// A function that is called with the number of rays that were done. If it throws, the work ends.
 using ReportDone = std::function<void(std::uint64_t rays)>;
 
 /// The data that all batches of a frame share.
@@ -34,13 +34,13 @@ struct FrameJob {
     }
 };
 
-/// Holds the passes, which are compiled at their first use. All arguments must outlive it.
+/// The owner of a device's passes, which are compiled at their first use. All arguments must outlive it.
 class DevicePasses {
 public:
     DevicePasses(Device& device, const CompiledScene& scene, const RecordConverter& records, const Settings& settings);
 
-    /// Takes another scene. Passes whose programs cannot draw it are dropped, and so are buffers that hold the last
-    /// scene. Throws Error (out_of_memory, device_fault).
+    /// Sets another scene. Removes passes whose programs cannot draw this scene, and buffers with the tables of the
+    /// last scene. Throws Error (out_of_memory, device_fault).
     void set_scene(const CompiledScene& scene, const RecordConverter& records);
 
     /// Whether the compiled programs can draw the scene.

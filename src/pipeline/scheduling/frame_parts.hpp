@@ -1,4 +1,4 @@
-// Frame parts: shares of a frame's or a list's rays, one after another for each device that is ready.
+// Frame parts: divides the rays of a frame or a list into parts; each device that is ready takes the next part.
 #pragma once
 
 #include <algorithm>
@@ -11,15 +11,15 @@ struct RayNumbers {
     std::uint64_t first = 0, end = 0;
 };
 
-/// Divides a frame's rays among devices: large parts first, smaller ones near the end.
+/// The division of a frame's rays among devices: large parts first, smaller parts near the end.
 class Parts {
 public:
     /// Makes parts of `least` to `most` rays, in units of `unit`, which is a row of a picture's tiles. Near the end the
-    /// parts become smaller, so that little is left for one device, or for the bus, when all other work is done.
+    /// parts become smaller, so that no device, and not the bus, has much left to do when all other work is done.
     Parts(std::uint64_t rays, std::uint64_t unit, std::uint64_t devices, std::uint64_t least, std::uint64_t most)
         : rays_(rays), unit_(unit), devices_(devices), least_(least), most_(most) {}
 
-    /// Returns the next part. Empty if there is none.
+    /// Returns the next part; empty: no part is left.
     RayNumbers take() {
         const std::uint64_t first = next_, left = rays_ - first;
         const std::uint64_t size = std::clamp(left / devices_ / 2, least_, most_);

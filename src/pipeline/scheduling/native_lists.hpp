@@ -9,11 +9,11 @@
 
 namespace csgrt {
 
-/// Traces lists on all threads of the host. Each thread takes the next batch of the list and traces it by the
-/// NativeTracer.
+/// Native lists trace lists on all threads of the host. Each thread takes the next batch of the list and traces it with
+/// the NativeTracer.
 class NativeLists {
 public:
-    /// Refers to its arguments, which must outlive it.
+    /// Refers to the arguments, which must outlive the object.
     NativeLists(const native::Level& level, const CompiledScene& scene, const Device& device)
         : device_(device), tracer_(level, scene, device.budget()) {}
 

@@ -12,8 +12,9 @@
 
 namespace csgrt {
 
-/// Gives each batch of the source to `work`; a batch that does not fit the memory (false) comes again in halves. A
-/// driver's running kernels cannot be ended, so its batches are so small that a call can end between two.
+/// Calls `work` with each batch of the source. If `work` returns false, the batch does not fit the memory and is
+/// halved. A driver's kernels cannot be stopped on a processor, so its batches are so small that a call can end soon
+/// between two batches.
 template <class Work>
 void SynchronousSchedule::for_each_batch(BatchSource& source, const Work& work) {
     const Device& device = passes_.device;
@@ -37,7 +38,8 @@ SynchronousSchedule::SynchronousSchedule(DevicePasses& passes, std::function<Dev
       batch_(passes.device),
       picture_(passes.device, "picture") {}
 
-// Makes room for `bytes`. `reused`: bytes of them that the schedule holds already.
+// Frees memory that is not in use if `bytes` are not available. `reused`: how many of these bytes the schedule has
+// already.
 void SynchronousSchedule::make_room(std::uint64_t bytes, std::uint64_t reused) {
     if (bytes <= passes_.device.available() + reused) return;
     batch_.release_lists();
@@ -58,7 +60,7 @@ void SynchronousSchedule::start_work(kernel::Frame& frame, Work work, std::span<
     upload(frame);
 }
 
-// Memory that others hold is taken before a smaller batch.
+// Memory that others keep for later is given up before the batch is halved.
 std::optional<PartitionSizes> SynchronousSchedule::trace(const PartitionPass::Input& input, TimedKernels& timed) {
     if (auto sizes = passes_.partitions().trace_counted(input, timed)) return sizes;
     if (!reclaim_()) return {};
@@ -86,7 +88,7 @@ void SynchronousSchedule::render(const FrameJob& job) {
     });
 }
 
-// Draws a batch. False: it does not fit the memory.
+// Draws a batch. Returns false if the batch does not fit the memory.
 bool SynchronousSchedule::draw_tiles(const FrameJob& job, const RayBatch& batch) {
     kernel::Frame frame = job.frame;
     frame.first_ray = batch.first;

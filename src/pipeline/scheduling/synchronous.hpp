@@ -1,6 +1,6 @@
 // Synchronous schedule: one batch at a time. The host reads which tiles of the batch see anything, runs kernels for
-// these alone, and reads their pixels. Processors, which share the host's memory, draw pictures this way. All devices
-// trace single pixels and lists of rays this way.
+// these tiles alone, and reads their pixels. Processors, which share the host's memory, draw pictures by this schedule.
+// All devices trace single pixels and lists of rays by it.
 #pragma once
 
 #include <algorithm>
@@ -18,7 +18,7 @@ namespace csgrt {
 class BatchSize {
 public:
     std::uint64_t rays() const { return rays_; }
-    /// Adds a measurement: so many rays that see something, or of a list, took so long.
+    /// Adds a measurement: the time of `rays` rays, which see something or are of a list.
     void add(std::uint64_t rays, double ms) {
         if (rays == 0) return;
         ms_a_ray_ = std::max(ms / static_cast<double>(rays), 0.9 * ms_a_ray_);
@@ -26,21 +26,21 @@ public:
     }
 
 private:
-    double ms_a_ray_ = 0;  ///< of the costliest batch, which is gradually forgotten
+    double ms_a_ray_ = 0;  ///< of the costliest batch; decays from batch to batch
     std::uint64_t rays_ = 1 << 13;
 };
 
-/// Draws frames on processors, and traces single pixels and lists on any device, one batch at a time.
+/// The schedule draws frames on processors, and traces single pixels and lists on any device, one batch at a time.
 class SynchronousSchedule {
 public:
-    /// Refers to the passes. `memory`: the device's, with everything that the pipeline holds of it. `reclaim` gives
-    /// back memory that others hold for later; false: they held none.
+    /// Refers to the passes. `memory` returns the device's memory, with the bytes that the pipeline uses. `reclaim`
+    /// frees memory that others keep for later; it returns false if there was none.
     SynchronousSchedule(DevicePasses& passes, std::function<DeviceMemory()> memory, std::function<bool()> reclaim);
 
     void render(const FrameJob& job);
     /// Draws single pixels, by their rays' numbers, with every partition.
     void draw_pixels(const FrameJob& job, std::span<const std::uint32_t> numbers);
-    /// The pixels of a batch that is less than a tile.
+    /// Draws the pixels of a batch that is less than a tile.
     void draw_part_of_tile(const FrameJob& job, const RayBatch& batch);
     /// Puts the rows of the rays that `source` gives, by number, into the receiver.
     void trace_list(const kernel::Frame& frame, const RayList& rays, BatchSource& source, RowReceiver& receiver,
@@ -64,7 +64,7 @@ private:
     void upload(const kernel::Frame& frame) {
         frame_upload_.start<std::byte>(batch_.frame, passes_.records().frame(frame));
     }
-    /// Sets the frame's work to the listed rays, uploads both and makes room for their pixels.
+    /// Sets the frame's work to the listed rays, uploads frame and list, and reserves memory for the pixels.
     void start_work(kernel::Frame& frame, Work work, std::span<const std::uint32_t> numbers, std::uint64_t pixel_bytes,
                     std::uint64_t ray_bytes);
 
