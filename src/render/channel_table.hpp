@@ -13,7 +13,7 @@ namespace csgrt {
 struct ChannelSource {
     const char* name;     ///< in the image
     std::uint32_t group;  ///< channel::..., which users choose
-    /// The value of a pixel of the reference; of ids the bits.
+    /// The value in a pixel of the reference; for ids their bits.
     float (*value)(const kernel::Pixel&, const kernel::DisplayBytes& display);
 };
 

@@ -23,7 +23,7 @@ DeviceBackend::DeviceBackend(DevicePlan plan, std::shared_ptr<const ModelInUse> 
           },
           [this](DeviceGroup& group) { adapt(group); }, settings.wait_for_device) {}
 
-/// Gives the group the model, if it has another.
+/// Gives the group the model, if it has another model.
 void DeviceBackend::adapt(DeviceGroup& group) const {
     const std::shared_ptr<const ModelInUse> in_use = model();
     if (group.owner() != in_use) group.set_scene(in_use->scene, *in_use->records, in_use);

@@ -1,4 +1,4 @@
-// Device backend: devices that draw at once, and devices that take over when their kernels are compiled.
+// Device backend: draws on devices that need no compiler, and on other devices once their kernels are compiled.
 #pragma once
 
 #include <mutex>
@@ -9,8 +9,8 @@
 
 namespace csgrt {
 
-/// Draws and shoots on a group of devices. While a GPU's kernels are compiled, a native device answers; a call after
-/// that uses the GPU.
+/// The backend draws and traces on a group of devices. While a GPU's kernels are compiled, a native device answers
+/// calls; later calls use the GPU.
 class DeviceBackend final : public Backend {
 public:
     /// Sets up the plan's devices. `search_ms`: the time that finding them took. The settings must outlive the backend.
@@ -42,11 +42,11 @@ private:
     }
 
     mutable std::mutex mutex_;
-    std::shared_ptr<const ModelInUse> model_;  ///< read by the takeover's job, too
+    std::shared_ptr<const ModelInUse> model_;  ///< the takeover's job reads it, too
     double search_ms_;
     SpotCheck spot_check_;
     DeviceTakeover takeover_;
-    DeviceGroup* drawer_ = nullptr;  ///< for the next call
+    DeviceGroup* drawer_ = nullptr;  ///< the group for the next call
     PipelineCounts counts_;
     double build_ms_in_call_ = 0;
 };

@@ -29,10 +29,10 @@ DeviceTakeover::~DeviceTakeover() {
     if (job_.valid()) job_.wait();
 }
 
-/// The job: finds and sets up the next devices, or gives devices more kernels. First hits of a few rays take the way of
-/// every partition, whose kernels no frame waits for either.
+/// The job: finds and sets up the next devices, or compiles more kernels for devices. First hits of a few rays use the
+/// kernels of every partition, so the job compiles these, too: no frame waits for them.
 DeviceTakeover::Made DeviceTakeover::work(Made made) {
-    if (is_left_) return made;  // without a thread, the waiting thread runs this
+    if (is_left_) return made;  // without another thread, the waiting thread runs the job
     const DriverCall driver_call;
     if (!made.pipelines) {
         const std::vector<FoundDevice> devices = plan_.find_next();
@@ -66,7 +66,7 @@ void DeviceTakeover::begin() {
     }
 }
 
-/// Takes the job's result; the job has ended, or is waited for.
+/// Takes the job's result; waits for the job if it has not ended.
 void DeviceTakeover::collect() {
     try {
         Made made = job_.get();
@@ -121,7 +121,7 @@ std::optional<std::string> DeviceTakeover::take_fault() {
         std::rethrow_exception(fault_);
     } catch (const std::exception& error) {
         const std::string why = error.what();
-        const std::string first_line = why.substr(0, why.find('\n'));  // a compiler writes hundreds
+        const std::string first_line = why.substr(0, why.find('\n'));  // a compiler writes hundreds of lines
         return "the GPU cannot be used, the processor draws: " + first_line;
     }
 }

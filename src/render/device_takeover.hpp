@@ -1,6 +1,6 @@
-// Device takeover: at first the devices that need no compiler draw, and others as soon as they are ready. A job on a
-// thread finds these, sets them up and gives them their kernels, and has them to itself meanwhile. A call takes them
-// over between two frames. Both draw the same bits.
+// Device takeover: at first devices draw that need no compiler, and the next devices draw as soon as they are ready. A
+// job on another thread finds the next devices, sets them up and compiles their kernels; meanwhile only the job uses
+// them. Between two frames a call takes them over. All devices draw the same bits.
 //
 //     first:   frame   frame   frame   frame
 //     job:     find, set up, compile ........|
@@ -23,34 +23,33 @@
 
 namespace csgrt {
 
-/// Chooses the devices of each call. One thread at a time. The job is over when this is destroyed: objects that the job
-/// refers to must outlive this.
+/// The takeover chooses the devices of each call. One thread at a time. The destructor ends the job: objects to which
+/// the job refers must outlive the takeover.
 class DeviceTakeover {
 public:
     /// Sets devices up; the job calls it, too.
     using SetUp = std::function<std::unique_ptr<DeviceGroup>(const std::vector<FoundDevice>&)>;
-    /// Gives devices the scene for which the next kernels are compiled; the job calls it, too.
+    /// Gives a group the scene for which its next kernels are compiled; the job calls it, too.
     using Adapt = std::function<void(DeviceGroup&)>;
 
-    /// Sets up the plan's first devices and begins to look for the next. `waits`: the next devices draw from the first
-    /// call on, if there are any. Throws Error (out_of_memory, device_fault).
+    /// Sets up the plan's first devices and begins to search for the next devices. `waits`: the next devices draw from
+    /// the first call on, if there are any. Throws Error (out_of_memory, device_fault).
     DeviceTakeover(DevicePlan plan, SetUp set_up, Adapt adapt, bool waits);
     DeviceTakeover(const DeviceTakeover&) = delete;
     DeviceTakeover& operator=(const DeviceTakeover&) = delete;
-    /// Waits for the current step of the job, at most until one mode's kernels are compiled.
+    /// Waits until the current step of the job has ended; the longest step compiles the kernels of one mode.
     ~DeviceTakeover();
 
-    /// The devices that draw such a call, every partition or first hits, with their kernels compiled. Valid until the
-    /// next call. Next devices that lack the mode's kernels, or whose kernels cannot draw the scene, get them from the
-    /// job, and the first devices draw meanwhile. Throws the fault that kept named devices from becoming ready, at this
-    /// call and all later ones.
+    /// The devices for a call of every partition, or of first hits, with compiled kernels. Valid until the next call.
+    /// If the next devices lack kernels for this mode or scene, the job compiles them, and the first devices draw
+    /// meanwhile. If a fault kept named devices from becoming ready, this call and all later calls throw it.
     DeviceGroup& drawer(bool every_partition, const CompiledScene& scene);
-    /// The devices that would draw a call whose kernels are all compiled.
+    /// The devices that would draw a call if all kernels were compiled.
     const DeviceGroup& present() const { return next_ ? *next_ : *first_; }
 
-    /// The name of the devices that the job makes ready; "gpu" until one is found; empty: there is no job.
+    /// The names of the devices that the job makes ready; "gpu" until a device is found; empty: there is no job.
     std::string awaited() const;
-    /// The fault that kept devices that nobody named from taking over; returned once.
+    /// The fault that kept devices, which the user did not name, from taking over; returned once.
     std::optional<std::string> take_fault();
 
 private:

@@ -18,8 +18,8 @@ namespace csgrt {
 struct Edit::Impl {
     std::shared_ptr<const Model::Impl> before;
     ModelSource source;          ///< with all edits except appearances
-    std::optional<Scene> scene;  ///< in place of the source's, if it changes
-    std::vector<Look> looks;     ///< in addition to the source's
+    std::optional<Scene> scene;  ///< replaces the source's scene, if an edit changes it
+    std::vector<Look> looks;     ///< in addition to the source's appearances
 
     Scene& changed() {
         if (scene) return *scene;
@@ -43,8 +43,8 @@ std::string normal(const std::string& path) {
     return "/" + path.substr(first, last - first + 1);
 }
 
-/// Joins lists of appearances: the earlier ones that the later ones do not replace whole, then the later ones. So there
-/// are as many as paths, however often they are edited.
+/// Joins lists of appearances: first the earlier entries, without those that later entries replace completely, then the
+/// later entries. So the list does not grow when the same paths are edited again.
 std::vector<Look> joined(std::vector<Look> all, const std::vector<Look>& later) {
     all.insert(all.end(), later.begin(), later.end());
     struct Last {
@@ -87,7 +87,7 @@ void check_paths(const std::vector<Look>& looks, const AppearanceTable& table, c
 CompiledScene repainted(const CompiledScene& before, const ModelSource& source, const AppearanceTable& table) {
     CompiledScene made = before;
     for (RegionInfo& region : made.region_info.own()) table.apply(region);
-    std::vector<Warning> known;  // reported when the scene was compiled
+    std::vector<Warning> known;  // not used: they were reported when the scene was compiled
     static_cast<Appearance&>(made) =
         appearance_of({source.lights, source.ambient, source.background}, made.region_info.get(), made.region_lights,
                       made.display_shading, known);
@@ -182,7 +182,7 @@ Edit& Edit::remove(const std::string& path) {
 void Edit::Impl::check_values() const {
     Scene values;
     source.put_appearance(values);
-    values.looks = looks;  // the others are valid
+    values.looks = looks;  // the source's appearances are valid
     FindingList findings;
     check_settings(values, [&](const Place& place, const std::string& message, const std::string& suggestion) {
         findings.add({place, message, suggestion, {}});
@@ -190,7 +190,7 @@ void Edit::Impl::check_values() const {
     if (!findings.empty()) throw Error(Status::scene, findings.take());
 }
 
-/// Whether only tables change. A region that begins or ceases to emit light may get another number.
+/// Whether only tables change. Not if a region begins or ceases to emit light, since it may then get another number.
 bool Edit::Impl::changes_tables_alone(const AppearanceTable& table) const {
     if (scene) return false;
     const auto is_finish = [&](std::uint32_t i) { return looks[i].finish.has_value(); };

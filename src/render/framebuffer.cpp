@@ -1,4 +1,4 @@
-// Framebuffer: the memory of pictures, and which of it is background already.
+// Framebuffer: the memory of pictures, and the record of which tiles are background already.
 #include <algorithm>
 #include <bit>
 #include <new>
@@ -23,7 +23,7 @@ Framebuffer::~Framebuffer() {
 Framebuffer::Framebuffer(Framebuffer&& other) noexcept = default;
 
 Framebuffer& Framebuffer::operator=(Framebuffer&& other) noexcept {
-    registered_ = nullptr;  // before the image
+    registered_ = nullptr;  // released before the image
     image_ = std::exchange(other.image_, {});
     background_ = std::exchange(other.background_, {});
     covered_ = std::exchange(other.covered_, {});
@@ -42,16 +42,17 @@ Image Framebuffer::take() {
     return std::exchange(*this, {}).image_;
 }
 
-/// Makes it a picture of this form; new memory is background. Throws Error (interrupted) if `watch` says so.
+/// Resizes the framebuffer to a picture of this form; new memory is background. Throws Error (interrupted) if `watch`
+/// ends the work.
 void Framebuffer::fit(int width, int height, std::vector<std::string> names, std::vector<float> background,
                       const Watch& watch) {
-    const auto bits = [](float value) { return std::bit_cast<std::uint32_t>(value); };  // they may be ids
+    const auto bits = [](float value) { return std::bit_cast<std::uint32_t>(value); };  // the values may be ids
     const auto tiles_along = [](int size) { return (static_cast<std::size_t>(size) + TILE - 1) / TILE; };
     const std::size_t tiles = tiles_along(width) * tiles_along(height);
     const bool fits =  // a moved-from image keeps its size, but has no tiles
         image_.width == width && image_.height == height && image_.names == names && covered_.size() == tiles;
     if (!fits) {
-        *this = {};  // frees the memory before more is taken; and leaves it valid if there is none
+        *this = {};  // frees the memory before more is taken, and is valid if there is no more
         const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
         Channels channels(pixels, background, &watch);
         image_.width = width;

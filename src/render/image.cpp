@@ -8,7 +8,8 @@ bool Image::has_channel(std::string_view name) const noexcept { return std::rang
 
 namespace {
 
-/// The index of a channel by its name, and by whether it holds ids.
+/// The index of a channel by its name. Throws Error (usage) if the channel does not exist, or is of the other kind (ids
+/// or floats).
 std::size_t find_channel(const Image& image, std::string_view name, bool ids) {
     const auto found = std::ranges::find(image.names, name);
     const auto number = static_cast<std::size_t>(found - image.names.begin());

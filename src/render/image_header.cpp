@@ -32,7 +32,7 @@ void describe_camera(const PreparedFrame& prepared, Image& image) {
     image.matrices["cameraToScreen"] = std::move(camera_to_screen);
 }
 
-// A header has no room for thousands of lines.
+// A header cannot have thousands of lines.
 std::string warnings_attribute(const std::vector<Warning>& warnings) {
     constexpr std::size_t most_bytes = 4096;
     std::string text;

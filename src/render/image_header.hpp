@@ -13,7 +13,7 @@ namespace csgrt {
 /// Writes the camera in the form that graphics programs expect: matrices worldToCamera and cameraToScreen, row-major.
 void describe_camera(const PreparedFrame& frame, Image& image);
 
-/// Warnings, a line each, as many as a header has room for.
+/// Warnings, a line each, as many as fit a header.
 std::string warnings_attribute(const std::vector<Warning>& warnings);
 
 }  // namespace csgrt

@@ -171,7 +171,7 @@ Pick Model::pick(const View& view, int column, int row) const {
     const kernel::Frame frame = prepare_frame(impl_->scene, view, impl_->tolerance).frame;
     const auto [o, d] = pick.ray;
     const kernel::view_range range = kernel::range_in_view(&frame, {{o.x, o.y, o.z}, {d.x, d.y, d.z}});
-    const std::uint32_t seen_end = impl_->scene.rank_ends[RANK_AIR];  // behind it: lights that no picture shows
+    const std::uint32_t seen_end = impl_->scene.rank_ends[RANK_AIR];  // after it come lights that no picture shows
     impl_->call([&](const ListTracer& tracer) {
         RayList list(pick.ray, {.all = whole_line});
         const auto along = [&](ClaimingRegions claims) {

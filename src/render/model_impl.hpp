@@ -1,4 +1,4 @@
-// Model implementation: the data of a Model. It does not change, except for parts that are made when they are first
+// Model implementation: the data of a Model. The data do not change, except for parts that are made when they are first
 // needed.
 #pragma once
 
@@ -19,16 +19,16 @@
 
 namespace csgrt {
 
-/// Traces rays through a compiled scene on the caller's thread. Any thread.
+/// The tracer of a compiled scene on the caller's thread. Any thread may call it.
 class CallerTracer {
 public:
     /// Refers to the scene, which must outlive it. `tolerance`: millimetres.
     CallerTracer(const CompiledScene& scene, double tolerance) : scene_(scene), tolerance_(tolerance) {}
-    /// Puts the rows of a list.
+    /// Traces a list and puts its rows into the receiver.
     void trace(const RayList& list, RowReceiver& receiver) const;
 
 private:
-    /// The tracer; null: this processor has none.
+    /// The tracer of native kernels; null: this processor has no such kernels.
     const NativeTracer* native() const;
     const Reference& reference() const;
 
@@ -63,14 +63,14 @@ struct ModelSource {
 /// are two more compiled forms, in which only the shown regions or only the ghosts claim; they share nearly all tables.
 struct Model::Impl final : ListTracer {
     ModelSource source;
-    CompiledScene scene;  ///< all its regions claim
+    CompiledScene scene;  ///< the form in which all regions claim
     double tolerance;     ///< millimetres, in double precision
-    double compile_ms;    ///< for compiling it
+    double compile_ms;    ///< the time of compiling the scene
     std::optional<CompiledScene> some_shown, some_ghosts;
 
     /// Compiles the scene. Throws Error (scene, usage).
     explicit Impl(ModelSource of);
-    /// Takes tables that are made already, and derives those of the regions' states from them.
+    /// Takes a scene that is compiled already, and derives the forms for regions' states from it.
     Impl(ModelSource of, CompiledScene made, const Impl& before);
 
     /// The scene in which the regions of `which` claim.

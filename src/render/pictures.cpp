@@ -1,4 +1,4 @@
-// Pictures of a Renderer: whole, coarse to fine, of several rays a pixel, and with ghosts.
+// Pictures of a Renderer: whole, coarse to fine, with several rays a pixel, and with ghosts.
 #include <algorithm>
 #include <cmath>
 #include <future>
@@ -31,7 +31,7 @@ void Renderer::render(const View& view, Framebuffer& framebuffer, const std::fun
                 [&](Watch& watch) { impl.render(view, framebuffer, shows, watch); });
 }
 
-/// Makes the framebuffer a picture of these channels; new memory is background.
+/// Resizes the framebuffer to a picture of these channels; new memory is background.
 void Renderer::Impl::fit(Framebuffer& framebuffer, const kernel::Frame& frame, std::uint32_t channels,
                          const Watch& watch) const {
     const kernel::Pixel background_pixel = kernel::background_pixel(&frame);
@@ -55,7 +55,7 @@ void Renderer::Impl::draw(const PreparedFrame& prepared, Framebuffer& framebuffe
     std::vector<ChannelMemory> channels;
     for (const ChannelSource& source : channel_table) {
         if (!(prepared.frame.channels & source.group)) continue;
-        const std::size_t i = sources.size();  // they come first
+        const std::size_t i = sources.size();  // the frame's channels come first
         sources.push_back(&source);
         channels.push_back({framebuffer.image_.channels[i].data(), framebuffer.background_[i]});
     }
@@ -69,7 +69,7 @@ void Renderer::Impl::draw(const PreparedFrame& prepared, Framebuffer& framebuffe
     }
 }
 
-/// Draws other rays of the view, in memory of the renderer's own.
+/// Draws other rays of the view into the framebuffer `beside`.
 const Image& Renderer::Impl::draw_beside(const View& view, const Sampling& sampling, std::uint32_t channels,
                                          Watch& watch) {
     PreparedFrame prepared = prepare_frame(scene(), view, tolerance, sampling);
@@ -79,8 +79,8 @@ const Image& Renderer::Impl::draw_beside(const View& view, const Sampling& sampl
     return beside.image_;
 }
 
-/// Draws every 8th pixel each way, then the missing pixels of every 4th, 2nd and all. Pixels of one step cover those
-/// that are still to come. False: `coarse` ended it.
+/// Draws every 8th pixel in each direction, then the missing pixels of every 4th, of every 2nd, and all pixels. In each
+/// step drawn pixels also fill the pixels that are still missing. Returns false if `coarse` ended the drawing.
 bool Renderer::Impl::draw_coarse(const View& view, const PreparedFrame& prepared, Framebuffer& framebuffer,
                                  const std::function<bool(int)>& coarse, Watch& watch) {
     Image& image = framebuffer.image_;
@@ -115,7 +115,8 @@ bool Renderer::Impl::draw_coarse(const View& view, const PreparedFrame& prepared
     return true;
 }
 
-/// Makes the colours the mean of several rays a pixel: Hammersley's points, moved so that the first is the middle.
+/// Replaces the colours by the mean of several rays a pixel. The rays are Hammersley's points, moved so that the first
+/// point is the pixel's middle.
 void Renderer::Impl::add_samples(const View& view, const PreparedFrame& prepared, Framebuffer& framebuffer,
                                  Watch& watch) {
     Image& image = framebuffer.image_;
@@ -130,7 +131,7 @@ void Renderer::Impl::add_samples(const View& view, const PreparedFrame& prepared
     };
     for (int i = 0; i < view.samples; ++i) {
         const auto from_middle = [](double part) { return part < 0.5 ? part : part - 1; };
-        double reversed = 0;  // the binary digits of i, behind the point
+        double reversed = 0;  // the binary digits of i in reverse, after the binary point
         for (int bit = 0; bit < 8; ++bit) reversed += (i >> bit & 1) * std::ldexp(1.0, -1 - bit);
         const Sampling sampling{.right = from_middle(static_cast<double>(i) / view.samples),
                                 .down = from_middle(reversed)};
@@ -163,7 +164,7 @@ std::uint32_t Renderer::Impl::word_of(const float (&color)[4]) const {
     return word;
 }
 
-/// Shows ghosts that would be seen before the picture's surfaces.
+/// Adds ghosts that lie before the picture's surfaces.
 void Renderer::Impl::add_ghosts(const View& view, const PreparedFrame& prepared, Framebuffer& framebuffer,
                                 Watch& watch) {
     Image& image = framebuffer.image_;
@@ -197,7 +198,7 @@ void Renderer::Impl::render(const View& view, Framebuffer& framebuffer, const st
     };
     if (framebuffer.covered_.empty()) {
         std::future<void> fitting = start_async(fit_picture);
-        prepare(every_partition, ClaimingRegions::shown);  // a compiler leaves most processors idle
+        prepare(every_partition, ClaimingRegions::shown);  // while it compiles, most processors are idle
         fitting.get();
     } else {
         prepare(every_partition, ClaimingRegions::shown);

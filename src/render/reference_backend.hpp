@@ -1,4 +1,4 @@
-// Reference backend: draws and shoots by the CPU reference.
+// Reference backend: draws pictures and traces lists by the CPU reference.
 #pragma once
 
 #include "reference/reference.hpp"
@@ -6,7 +6,7 @@
 
 namespace csgrt {
 
-/// Draws and shoots by the CPU reference, for comparison and where there is no device.
+/// The backend draws and traces by the CPU reference, for comparison and where there is no device.
 class ReferenceBackend final : public Backend {
 public:
     explicit ReferenceBackend(std::shared_ptr<const ModelInUse> model) { set_model(std::move(model)); }

@@ -27,7 +27,7 @@ const Settings& checked(const Settings& settings) {
     return settings;
 }
 
-/// Makes a Model while drivers start.
+/// Makes a Model, while drivers start on another thread.
 Model model_of(Scene scene, const std::vector<std::string>& objects, const Settings& settings) {
     prepare_devices(checked(settings));
     return Model(std::move(scene), objects, settings);
@@ -74,7 +74,7 @@ std::shared_ptr<const ModelInUse> Renderer::Impl::used(ClaimingRegions claims, b
     return use;
 }
 
-/// Takes the next model at the begin of a call, which keeps it whatever comes meanwhile.
+/// Takes the next model at the beginning of a call. The call keeps it, even if another model is set meanwhile.
 void Renderer::Impl::take_next() {
     if (!has_next) return;
     {
@@ -98,7 +98,7 @@ Model Renderer::model() const {
 void Renderer::set_model(Model model) {
     Impl& impl = this->impl();
     const std::lock_guard lock(impl.mutex);
-    std::swap(impl.next, model);  // the old one is destroyed after the lock is released
+    std::swap(impl.next, model);  // the old model is destroyed after the lock is released
     impl.has_next = true;
 }
 
@@ -107,7 +107,7 @@ void Renderer::Impl::use_reference() {
     backend = std::make_unique<ReferenceBackend>(used(ClaimingRegions::all, true));
 }
 
-// If there is no device, and nobody named one, the reference draws, with a warning.
+// If there is no device, and the user named none, the reference draws, with a warning.
 void Renderer::Impl::set_up_devices() {
     const auto start = Clock::now();
     DevicePlan plan = plan_devices(settings);
@@ -132,8 +132,8 @@ void Renderer::Impl::set_up_devices() {
     use_reference();
 }
 
-/// Starts the statistics of a call: until it ends, only the renderer's own numbers are known; a call that throws leaves
-/// no others.
+/// Resets the statistics at the start of a call. Until the call ends, they have only the renderer's own numbers; if it
+/// throws, they have no others.
 void Renderer::Impl::start_call(std::uint64_t rays, bool every_partition, int width, int height) {
     Statistics fresh;
     fresh.device = statistics.device;
@@ -155,7 +155,7 @@ void Renderer::Impl::prepare(bool every_partition, ClaimingRegions claims) {
     if (auto fault = backend->take_fault()) warn(std::move(*fault));
 }
 
-/// Time that a call waits for kernels counts as `build`.
+/// Time in which a call waits for kernels counts as `build`, not as `frame`.
 void Renderer::Impl::end_call(Clock::time_point start) {
     backend->report(statistics);
     statistics.ms.frame = milliseconds_since(start) - backend->build_ms_in_call();

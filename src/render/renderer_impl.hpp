@@ -1,5 +1,5 @@
-// Renderer implementation: the data of a Renderer. renderer.cpp has its construction, models and lists of rays,
-// pictures.cpp its pictures.
+// Renderer implementation: the data of a Renderer. renderer.cpp has construction, models and lists of rays;
+// pictures.cpp has pictures.
 #pragma once
 
 #include <array>
@@ -21,20 +21,20 @@ namespace csgrt {
 /// The backend, the model of the current call, and the statistics. Each call takes the model that was set last,
 /// prepares the backend for it, and runs under a Watch.
 struct Renderer::Impl {
-    const unsigned process = process_number();  ///< where it works: its threads, and drivers' data, exist only there
+    const unsigned process = process_number();  ///< its threads, and drivers' data, exist in this process only
     Settings settings;
     bool uses_drivers = false;
-    Model model;                                              ///< of the current call; another may be next
+    Model model;                                              ///< of the current call; `next` may be another
     double tolerance = 0;                                     ///< as kernels get it, in millimetres
     std::array<std::shared_ptr<const ModelInUse>, 3> in_use;  ///< by ClaimingRegions; null: not needed yet
     std::unique_ptr<Backend> backend;
     std::vector<Warning> device_warnings;
     Statistics statistics;
-    Framebuffer beside;  ///< for rays beside the pixels' own
+    Framebuffer beside;  ///< for rays beside the pixels' middles
 
     Impl(Model of, const Settings& given) : settings(given), model(std::move(of)), next(model) {}
 
-    std::mutex mutex;                   ///< guards the next two
+    std::mutex mutex;                   ///< guards the next two members
     Model next;                         ///< the model of the next call
     std::atomic<bool> has_next{false};  ///< `next` differs from `model`
 
@@ -60,8 +60,8 @@ struct Renderer::Impl {
     void render(const View& view, Framebuffer& framebuffer, const std::function<bool(int)>& coarse, Watch& watch);
     void trace(const RayList& list, RowReceiver& receiver, ClaimingRegions claims, Watch& watch);
     class WatchedTracer;
-    /// Calls work(tracer) as a call of the host's. `all`: the number of rays of the several lists that it traces; 0: it
-    /// traces one.
+    /// Calls work(tracer) as one call of the user. `all`: the number of rays, if `work` traces several lists; 0: `work`
+    /// traces one list.
     template <class Work>
     void call(const Work& work, std::uint64_t all = 0);
 };

@@ -1,5 +1,5 @@
-// Spot check: the CPU reference traces some batches of the devices' pictures and lists, too, and compares them bit by
-// bit.
+// Spot check: the CPU reference also traces some batches of the devices' pictures and lists. The results are compared
+// bit by bit.
 #pragma once
 
 #include <memory>
@@ -11,18 +11,18 @@
 
 namespace csgrt {
 
-/// Compares batches with the reference. A difference of one bit fails the call (Settings::check).
+/// The check compares batches with the reference. A difference of one bit fails the call (Settings::check).
 class SpotCheck {
 public:
-    /// Checks the first batch, and every n-th after it, n being Settings::check; none if it is 0. The settings must
-    /// outlive the object.
+    /// Checks the first batch and every n-th batch after it; n is Settings::check, and 0 means no batch. The settings
+    /// must outlive the object.
     explicit SpotCheck(const Settings& settings) : settings_(settings) {}
 
-    /// Forgets the scene: the next batches are another's.
+    /// Forgets the scene: the next batches are of another scene.
     void forget_scene() { reference_.reset(); }
 
-    /// Throws Error (device_fault) that names the first pixel and channel, or the first ray, whose bits differ;
-    /// (interrupted) if `watch` says so. `batches`: those of a call that `device` has answered.
+    /// Throws Error (device_fault) that names the first pixel and channel, or the first ray, whose bits differ; Error
+    /// (interrupted) if `watch` ends the work. `batches`: the batches of a call on `device`.
     void compare(const CompiledScene& scene, const PreparedFrame& frame, const FrameMemory& memory,
                  const std::vector<RayBatch>& batches, const std::string& device, Watch& watch);
     void compare(const CompiledScene& scene, const kernel::Frame& frame, const RayList& rays, const RowReceiver& given,
@@ -33,7 +33,7 @@ private:
     const Reference& reference(const CompiledScene& scene);
 
     const Settings& settings_;
-    std::uint64_t batches_ = 0;  ///< of all calls
+    std::uint64_t batches_ = 0;  ///< number of batches of all calls
     std::unique_ptr<ReferenceKernels> kernels_;
     std::optional<Reference> reference_;
 };
