@@ -1,4 +1,4 @@
-// The kernels' geometry, camera, shading and tree walk, compiled for the host.
+// Geometry: the kernels' geometry, camera, shading and tree walk, compiled for the host.
 #pragma once
 
 #include "kernel_host/kernels.hpp"

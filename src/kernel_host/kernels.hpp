@@ -1,4 +1,4 @@
-// kernels/ compiled for the host in double: the same source, the same bits.
+// Kernels: headers of kernels/, compiled for the host in double: the same source, the same bits.
 #pragma once
 
 #include <cstddef>

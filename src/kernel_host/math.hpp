@@ -1,11 +1,11 @@
-// Arithmetic of the host for kernels/shared/base.h, for each kind of number. It rounds as a device rounds.
+// Math: the host's arithmetic for kernels/shared/base.h, for each type of number. It rounds as a device rounds.
 #pragma once
 
 namespace csgrt::host {
 
-/// A number that hides its origin from the compiler. GCC (12 at least) takes -fma(a, b, c) for fma(-a, b, -c) if the
-/// processor has it as one instruction: where a b + c is 0, the zero gets the other sign, and no option prevents this.
-/// In float the reference has no fma instruction (double_fma.hpp).
+/// A number that hides its origin from the compiler. GCC (12 at least) turns -fma(a, b, c) into fma(-a, b, -c) if the
+/// processor has this as one instruction. Where a b + c is 0, the zero then has the other sign, and no option prevents
+/// this. In float the reference has no fma instruction (double_fma.hpp).
 [[gnu::always_inline]] inline double opaque(double x) {
 #if defined(__GNUC__) && !defined(__clang__)
 #if defined(__x86_64__)

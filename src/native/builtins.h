@@ -1,14 +1,14 @@
-// OpenCL C's functions, so far as kernels use them, for kernels that clang compiles ahead of time for a processor
-// (cmake/native_kernels.cmake): in place of what a driver's library has. kernels/shared/builtins.h lists them.
+// Builtins: the functions of OpenCL C that kernels use, for kernels that clang compiles ahead of time for a processor
+// (cmake/native_kernels.cmake). They replace a driver's library. kernels/shared/builtins.h lists them.
 #define CSGRT_BUILTINS_H
 #define INLINE static inline __attribute__((overloadable, always_inline))
 #define PURE static inline __attribute__((overloadable, always_inline, const))
 
-// ---- Which work-item runs. The loops of the kernels' entries (NATIVE_ENTRY) say it, a thread each its own
-// (driver.cpp). ----
+// ---- Which work-item runs. The loops of the kernels' entries (NATIVE_ENTRY) set it, for each thread (driver.cpp).
+// ----
 typedef struct {
     size_t id, size;
-    const volatile uchar* stop;  // not 0: no item begins any more
+    const volatile uchar* stop;  // not 0: no more work-items begin
 } WorkItem;
 WorkItem* csgrt_native_item(void) __attribute__((const));
 INLINE size_t get_global_id(uint dimension) { return csgrt_native_item()->id; }
@@ -34,8 +34,8 @@ PURE double fabs(double x) { return __builtin_fabs(x); }
 PURE float floor(float x) { return __builtin_floorf(x); }
 PURE double floor(double x) { return __builtin_floor(x); }
 PURE float fma(float a, float b, float c) { return __builtin_fmaf(a, b, c); }
-// A number that the compiler knows nothing of, where it would take -fma(a, b, c) for fma(-a, b, -c): if a b + c is 0,
-// the zero's sign is another one (clang 15 for aarch64's fnmadd; host_math.hpp has it for GCC).
+// A number whose origin the compiler does not know. Otherwise clang 15 turns -fma(a, b, c) into fma(-a, b, -c)
+// (aarch64's fnmadd): if a b + c is 0, the zero gets the other sign. src/kernel_host/math.hpp has the same for GCC.
 #if defined(__aarch64__)
 PURE double opaque(double x) {
     __asm("" : "+w"(x));
@@ -45,17 +45,17 @@ PURE double opaque(double x) {
 PURE double opaque(double x) { return x; }
 #endif
 PURE double fma(double a, double b, double c) { return opaque(__builtin_fma(a, b, c)); }
-// Exact, of x > 0: the exponent's bits, or how many zeros a subnormal number begins with.
+// The exact exponent of x > 0: from the exponent's bits or, for a subnormal number, from its leading zeros.
 PURE int ilogb(double x) {
     const int e = (int)(as_ulong(x) >> 52 & 2047u);
     return e != 0 ? e - 1023 : -1011 - (int)__builtin_clzl(as_ulong(x) & 0xffffffffffffful);
 }
-// The C library's is exact but where it rounds to a subnormal number, as OpenCL's is.
+// The C library's ldexp is exact except where it rounds to a subnormal number, and so is OpenCL's.
 double csgrt_ldexp(double, int) __asm(CSGRT_LDEXP) __attribute__((const));
 PURE double ldexp(double x, int e) { return csgrt_ldexp(x, e); }
 
-// ---- Eight doubles. LLVM's own functions, in the width that the processor passes in one register: any other breaks
-// their call. ----
+// ---- Eight doubles. LLVM's own functions, in the width that the processor passes in one register: another width
+// breaks their call. ----
 #if defined(__AVX512F__)
 double8 csgrt_sqrt(double8) __asm("llvm.sqrt.v8f64") __attribute__((const));
 double8 csgrt_fma(double8, double8, double8) __asm("llvm.fma.v8f64") __attribute__((const));
@@ -90,7 +90,7 @@ PURE float8 convert_float8(uint8 x) { return __builtin_convertvector(x, float8);
 PURE int8 convert_int8(long8 x) { return __builtin_convertvector(x, int8); }
 PURE char8 convert_char8(int8 x) { return __builtin_convertvector(x, char8); }
 PURE long8 convert_long8(int8 x) { return __builtin_convertvector(x, long8); }
-// Aligned as a single element is.
+// Vectors in memory are aligned like a single element.
 #define MEMORY_FUNCTIONS(T, V, N, SPACE)                          \
     INLINE V vload##N(size_t offset, const SPACE T* p) {          \
         V values;                                                 \

@@ -73,7 +73,7 @@ Handle handle_of(T* object) {
     return reinterpret_cast<Handle>(object);
 }
 
-/// A device is one of compiled_levels() that can run here. Its address is its handle.
+/// A device is an element of compiled_levels() that can run here. Its address is its handle.
 const Level& level_of(cl_device_id device) { return *reinterpret_cast<const Level*>(device); }
 
 int platform;  // only its address counts
@@ -190,7 +190,7 @@ cl_int finish(cl_command_queue) { return CL_SUCCESS; }
 
 // ---- Memory ----
 
-constexpr std::size_t alignment = 128;  // of the longest vector, double16, as in OpenCL
+constexpr std::size_t alignment = 128;  // the alignment of the longest vector, double16, as in OpenCL
 
 cl_mem create_buffer(cl_context, cl_mem_flags flags, std::size_t bytes, void* host, cl_int* code) {
     const bool is_own = !(flags & CL_MEM_USE_HOST_PTR);
@@ -255,7 +255,7 @@ void* map(cl_command_queue, cl_mem memory, cl_bool, cl_map_flags, std::size_t of
 cl_int unmap(cl_command_queue, cl_mem, void*, cl_uint, const cl_event*, cl_event* event) try {
     tell(event, now());
     return CL_SUCCESS;
-} catch (const std::bad_alloc&) {  // destructors call it
+} catch (const std::bad_alloc&) {  // destructors call this function, so it must not throw
     return CL_OUT_OF_HOST_MEMORY;
 }
 
@@ -336,8 +336,8 @@ void run_here(const CompiledKernel& kernel, std::size_t items, const std::uint64
 
 namespace {
 
-// A thread takes parts until none is left. Parts are small, since rays differ in cost, but take longer than taking a
-// part does.
+// A thread takes parts until no part is left. Parts are small, since rays differ in cost, but large enough that taking
+// a part costs little.
 void run(Context& context, const CompiledKernel& kernel, const std::uint64_t* arguments, std::size_t items,
          std::size_t group) {
     constexpr std::size_t parts_a_thread = 64, most_items = 4096, few_items = 64;

@@ -1,9 +1,9 @@
-// Native device: this machine's processors, driven through OpenCL's functions like any other device, with kernels that
-// were compiled together with csgrt (kernels.hpp). It needs no driver, no loader and no compiler where it runs.
+// Native device: this machine's processors, used through OpenCL's functions like any other device, with kernels that
+// are compiled together with csgrt (kernels.hpp). It needs no driver, loader or compiler on the user's machine.
 //
-// A command is done when the call that queues it returns, whatever its queue; so events only tell when it ran. The
-// driver has the part of OpenCL that csgrt uses: one dimension, buffers, programs of double precision with the default
-// quartic. The source of such a program is its name in kernels.hpp, and it takes no options.
+// A command is done when the call that queues it returns, in any queue. Events only have the command's times. The
+// driver implements the part of OpenCL that csgrt uses: one dimension, buffers, programs of double precision with the
+// default quartic. The source of such a program is its name in kernels.hpp, and it takes no options.
 #pragma once
 
 #include <vector>
@@ -16,12 +16,12 @@ namespace csgrt::native {
 inline constexpr const char* platform_name = "csgrt";
 
 /// The property of a context with the address of a std::atomic<bool>, which may be null. While the flag is true,
-/// kernels leave out the work-items that have not begun.
+/// kernels skip work-items that have not begun.
 inline constexpr cl_context_properties stop_property = 0x63736773;
 
 const OpenCl& functions();
 
-/// The kernels of a device, if `table` is the native device's; else null.
+/// The kernels of a device, if `table` is the native device's table; else null.
 const Level* level_of(const OpenCl* table, cl_device_id device);
 
 }  // namespace csgrt::native

@@ -1,5 +1,5 @@
-// Native kernels, compiled ahead of time for each level of instructions that this library has
-// (cmake/native_kernels.cmake writes the tables; clang compiles the files of kernels/ as they are).
+// Native kernels: kernels that are compiled ahead of time, for each level of instructions of this library. clang
+// compiles the files of kernels/ unchanged; cmake/native_kernels.cmake writes the tables.
 #pragma once
 
 #include <atomic>
@@ -10,7 +10,7 @@
 
 namespace csgrt::native {
 
-/// Runs work-items [first, end). An argument is 64 bits: the address of memory, or a value of at most so many bits.
+/// Runs work-items [first, end). An argument is 64 bits: the address of memory, or a value of at most 64 bits.
 using Entry = void (*)(std::size_t first, std::size_t end, const std::uint64_t* arguments);
 
 /// A kernel of a program: its entry point, and the sizes of its arguments.
@@ -21,7 +21,7 @@ struct CompiledKernel {
     std::uint32_t argument_count;
 };
 
-/// A program: one of these, with every type of solid.
+/// A program of native kernels. It supports every type of solid.
 struct Program {
     const char* name;  ///< as in the list of cmake/native_kernels.cmake
     std::span<const CompiledKernel> kernels;
@@ -30,20 +30,20 @@ struct Program {
 };
 
 /// Runs work-items [0, items) of a kernel on this thread. When `stop`, which may be null, becomes true, work-items that
-/// have not begun are left out.
+/// have not begun are skipped.
 void run_here(const CompiledKernel& kernel, std::size_t items, const std::uint64_t* arguments,
               const std::atomic<bool>* stop);
 
 /// A level of instructions, and the programs that are compiled for it. A processor that can run the level can run all
-/// of them.
+/// of these programs.
 struct Level {
-    const char* name;  ///< its name in compilers: x86-64-v4
+    const char* name;  ///< as compilers name it: x86-64-v4
     std::span<const Program> programs;
 
     const Program* program(std::string_view name) const;
 };
 
-/// The levels of this library, the best first. Empty if it was built without clang.
+/// The levels of this library, the best first. Empty if the library was built without clang.
 std::span<const Level> compiled_levels();
 
 /// Whether this processor and its system can run a level.

@@ -30,7 +30,8 @@ unsigned saved_registers() {
 
 bool has(unsigned bits, unsigned wanted) { return (bits & wanted) == wanted; }
 
-/// The level of the processor: 3, 4 for x86-64-v3, v4 (System V ABI for x86-64, "Micro-Architecture Levels"). 0: less.
+/// The level of the processor: 3, 4 for x86-64-v3, v4 (System V ABI for x86-64, "Micro-Architecture Levels"). 0: a
+/// lower level.
 int level_of_processor() {
     constexpr unsigned fma = 1u << 12, movbe = 1u << 22, osxsave = 1u << 27, avx = 1u << 28, f16c = 1u << 29;
     constexpr unsigned bmi1 = 1u << 3, avx2 = 1u << 5, bmi2 = 1u << 8, lzcnt = 1u << 5;

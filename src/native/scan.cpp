@@ -1,5 +1,5 @@
-// Scan: kernels/scan.cl for a processor. Its work-items wait for each other (barrier), which loops over work-items
-// cannot do; a sequential block takes no longer. The sums are of integers, so the order does not matter.
+// Scan: kernels/scan.cl for a processor. The OpenCL kernel's work-items wait for each other (barrier), which loops over
+// work-items cannot do. A sequential block takes no longer. The sums are of integers, so the order does not matter.
 #include <algorithm>
 #include <utility>
 
@@ -16,7 +16,7 @@ constexpr std::size_t group = 64, block = 1024;  // SCAN_GROUP, SCAN_BLOCK
 std::uint32_t saturated(std::uint32_t a, std::uint32_t b) { return a + b < a ? COUNT_MAX : a + b; }
 RayCount plus(RayCount a, RayCount b) { return {saturated(a.segments, b.segments), saturated(a.words, b.words)}; }
 
-/// Replaces each count by the sum of the counts before it. Returns the sum of all.
+/// Replaces each count by the sum of the counts before it. Returns the sum of all counts.
 RayCount scan(RayCount* counts, std::size_t size) {
     RayCount sum{};
     for (std::size_t i = 0; i < size; ++i) sum = plus(sum, std::exchange(counts[i], sum));

@@ -1,4 +1,4 @@
-// Partitions along whole lines: from arrays to an object a ray.
+// Along: converts arrays of partitions to one object a ray.
 #pragma once
 
 #include <limits>
@@ -11,7 +11,7 @@ namespace csgrt {
 inline constexpr RayRange whole_line{-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
 inline constexpr Fields all_fields{.solids = true, .normals = true, .overlaps = true};
 
-/// Converts arrays that have all fields. Partitions that end at t < 0 are left out.
+/// Converts arrays, which must have all fields. Partitions that end at t < 0 are left out.
 std::vector<RayPartitions> along_rays(const Partitions& all);
 
 }  // namespace csgrt

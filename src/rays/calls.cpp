@@ -36,7 +36,7 @@ void find_regions(std::span<const Vec3> points, Array<std::int32_t>& answer, con
     tracer.trace(RayList(points), receiver, ClaimingRegions::all);
 }
 
-// A ray goes along the pixels of a line.
+// Each ray runs along a line of pixels.
 void find_pixels(const Slice& slice, Array<std::int32_t>& answer, const ListTracer& tracer) {
     if (slice.width < 1 || slice.height < 1 || slice.width > 32768 || slice.height > 32768)
         throw Error(Status::usage, "the size of a slice must be 1 to 32768 pixels each way");

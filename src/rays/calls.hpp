@@ -1,4 +1,4 @@
-// List calls: the calls of a Model, on the caller's thread, and of a Renderer that are answered by lists of rays.
+// List calls: the calls of a Model (on the caller's thread) and of a Renderer that trace lists of rays.
 #pragma once
 
 #include <cstdint>

@@ -35,7 +35,7 @@ double width_of(const Box& box, const Vec3& along) {
 
 /// The upward direction in a plane: as far as possible along z, else y. `normal`: a unit vector.
 Vec3 up_in_plane(const Vec3& normal) {
-    constexpr double least_sine = 1e-9;  // below it rounding would decide which way is up
+    constexpr double least_sine = 1e-9;  // below this sine rounding would decide the direction
     for (const Vec3& up : {Vec3{0, 0, 1}, Vec3{0, 1, 0}}) {
         const Vec3 within = up - dot(up, normal) * normal;
         if (length(within) > least_sine) return unit(within);
@@ -74,8 +74,8 @@ RayGrid grid_of(const kernel::Frame& frame) {
             .is_pinhole = frame.perspective != 0};
 }
 
-// The rays lie between those of the corners. A pinhole's direction is not 0 if each corner is less than a right angle
-// from the middle.
+// All rays lie between the rays of the corners, so only these are checked. No ray of a pinhole has the direction 0 if
+// each corner's ray is less than a right angle from the middle.
 void check_grid(const RayGrid& grid) {
     check_counts(grid.columns, grid.rows, "the grid of rays");
     if (grid.is_pinhole && !(largest(grid.direction) <= Limits::ray_origin))

@@ -1,4 +1,4 @@
-// Grid of rays: the camera of a frame, with which kernels make the rays.
+// Grid of rays: sets the camera of a frame, from which kernels make the grid's rays.
 #pragma once
 
 #include <csgrt/rays.hpp>

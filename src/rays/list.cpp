@@ -90,7 +90,7 @@ RayList::RayList(std::span<const Vec3> points)
     });
 }
 
-/// The ray as it is traced, without the exponent of a grid.
+/// A ray of the list. For a grid its direction is already divided by 2^exponent_.
 Ray RayList::ray(std::uint64_t i) const {
     if (is_grid_)
         return ray_of(

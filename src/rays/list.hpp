@@ -22,7 +22,7 @@ public:
     explicit RayList(std::span<const Vec3> points);
 
     std::uint64_t size() const { return numbers_.empty() ? size_ : numbers_.size(); }
-    /// The rays of some numbers, which must outlive the list.
+    /// A list of some of the rays, by number; `numbers` must outlive the list.
     RayList some(std::span<const std::uint32_t> numbers) const {
         RayList list = *this;
         list.numbers_ = numbers;
@@ -35,29 +35,30 @@ public:
         list.size_ = count;
         return list;
     }
-    /// The record of a ray. A direction of unusual length is divided by a power of two, and the range multiplied by it.
+    /// The record of a ray. A direction of unusual length is divided by a power of two, and the range is multiplied by
+    /// the same power.
     kernel::RayRecord record(std::uint64_t ray) const;
-    /// Fills `records` with those of the rays from `first` on.
+    /// Fills `records` with the records of the rays from `first` on.
     void fill(std::uint64_t first, std::span<kernel::RayRecord> records) const {
         for (kernel::RayRecord& record : records) record = this->record(first++);
     }
 
-    /// Whether devices can make the rays: all are of a grid, and have one range.
+    /// Whether devices can make the rays: all rays are of a grid, and have one range.
     bool is_grid() const { return is_grid_ && numbers_.empty() && ranges_.each.empty(); }
     /// Sets the camera with which kernels make the rays; see put_grid.
     void put_camera(kernel::Frame& frame) const;
-    /// Sets planes of a view. A ray that runs in one of them is evaluated on the sides that the plane keeps; nothing
-    /// else is cut.
+    /// Sets planes of a view. They have an effect only on a ray that runs in one of them: it is evaluated on the sides
+    /// that the plane keeps.
     void cut_by(std::span<const kernel::PlaneRecord> planes) { planes_ = planes; }
     void put_planes(kernel::Frame& frame) const {
         std::ranges::copy(planes_, frame.clip);
         frame.clip_count = static_cast<std::uint32_t>(planes_.size());
     }
     RayRange range() const { return {scaled(ranges_.all.t_near), scaled(ranges_.all.t_far)}; }
-    /// The number of the list's first ray among the grid's.
+    /// The number of the list's first ray among the rays of the grid.
     std::uint64_t first() const { return first_; }
 
-    /// Converts the answer's distances to lengths of the rays' own directions.
+    /// Converts the answer's distances back to units of the rays' original directions.
     void restore_lengths(Partitions& answer) const;
     void restore_lengths(Array<double>& of_rays) const;
 
@@ -73,7 +74,7 @@ private:
     std::uint64_t first_ = 0, size_ = 0;
     bool is_grid_ = false, is_any_scaled_ = false;
     kernel::Frame camera_{};  ///< of a grid
-    int exponent_ = 0;        ///< of all directions of a grid; `camera_` is without it
+    int exponent_ = 0;        ///< the directions of a grid are divided by 2^exponent_, in `camera_`, too
 };
 
 }  // namespace csgrt

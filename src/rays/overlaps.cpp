@@ -13,7 +13,7 @@ namespace kernel {
 
 namespace {
 
-/// The claimants of the partition that begins at `in`. Weaving has given all boundaries of an event the same distance.
+/// The claimants of the partition that begins at `in`. Weaving gives all boundaries of an event the same distance.
 std::span<const std::uint32_t> claimants_of(const CompiledScene& scene, const kernel::Boundary* boundaries,
                                             std::uint32_t segments, double in, std::vector<std::uint32_t>& found) {
     std::vector<std::uint32_t> bits(kernel::words_of(segments));

@@ -1,4 +1,4 @@
-// Overlaps: makes rows of the partitions that several regions of one rank claim, with all claimants.
+// Overlaps: makes rows for the partitions that several regions of one rank claim, with all claimants.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ struct TracedBatch {
     std::vector<kernel::PartitionNode> nodes;
 };
 
-/// Pointers to such results.
+/// Pointers to the results of a TracedBatch.
 struct TracedRays {
     const kernel::RayCount* offsets;  ///< one a ray, and one more
     const kernel::Boundary* boundaries;
@@ -28,8 +28,8 @@ struct TracedRays {
 void append_overlaps(const CompiledScene& scene, std::span<const kernel::OverlapRecord> overlap_records,
                      const TracedRays& traced, RowMemory& rows);
 
-/// Appends the next overlap of a ray. It is joined with the previous one if the same regions go on. `claimants`:
-/// ascending.
+/// Appends the next overlap of a ray. It is joined with the previous overlap if this touches it and has the same
+/// claimants. `claimants`: ascending.
 void append_overlap(std::uint32_t ray, double in, double out, std::span<const std::uint32_t> claimants,
                     RowMemory& rows);
 

@@ -14,8 +14,8 @@ namespace {
 
 constexpr std::size_t most_kept = std::size_t{16} << 20;  ///< bytes, approximately
 
-/// Runs work on several threads, for a batch that a device answered whole; smaller batches come from several threads
-/// already.
+/// Runs work on several threads if the batch is large, as a device's batches are. Smaller batches come from several
+/// threads already.
 template <class Work>
 void in_parts(std::size_t count, const Work& work) {
     constexpr std::size_t part = 1 << 16;

@@ -1,4 +1,4 @@
-// Row takers: copy the rows of batches, which end in any order, into the caller's arrays.
+// Row receivers: copy the rows of batches, which arrive in any order, into the caller's arrays.
 #pragma once
 
 #include <condition_variable>
@@ -19,15 +19,15 @@ public:
     virtual ~RowReceiver() = default;
 
     Fields fields() const { return fields_; }
-    /// Whether it takes only the first row of each ray.
+    /// Whether the receiver takes only the first row of each ray.
     bool first_row() const { return first_row_; }
     /// Copies a batch's rows; then the caller may use the memory again. Any thread.
     virtual void put(const RowView& rows) = 0;
-    /// Called when a batch will not come: nobody waits for it any more.
+    /// Called when a batch will not arrive, so that no thread waits for it.
     virtual void stop() {}
-    /// Whether the rows of a ray are those of another ray, to the last bit.
+    /// Whether the rows that were received for `ray` are equal to the rows of ray `other` in `rows`, to the last bit.
     virtual bool has(std::uint64_t ray, const Partitions& rows, std::size_t other) const = 0;
-    /// Calls make(), which has to put a batch; if it throws, the batch will not come.
+    /// Calls make(), which has to put a batch. If make() throws, calls stop().
     template <class Make>
     void guard(const Make& make) {
         try {
@@ -43,14 +43,14 @@ private:
     const bool first_row_;
 };
 
-/// Writes rows to the caller's arrays in the order of the rays.
+/// The collector writes rows to the caller's arrays in the order of the rays.
 class RowCollector final : public RowReceiver {
 public:
     /// Empties the arrays. `rays`: the number of rays of the list. `rows` must outlive the object.
     RowCollector(Partitions& rows, Fields fields, std::uint64_t rays);
 
-    /// Copies the rows, or waits while too many rows are kept for which earlier rays are missing. The batch that all
-    /// wait for never waits.
+    /// Copies the rows. Rows whose earlier rays are missing are kept; if too many are kept, the call waits. The batch
+    /// that comes next in order never waits.
     void put(const RowView& rows) override;
     void stop() override;
     bool has(std::uint64_t ray, const Partitions& rows, std::size_t other) const override;
@@ -67,7 +67,7 @@ private:
     bool is_stopped_ = false;
 };
 
-/// Arrays for the first row of each ray; null: not wanted.
+/// Arrays for the first row of each ray; null: the array is not wanted.
 struct HitArrays {
     Array<std::int32_t>* regions = nullptr;
     Array<double>* distances = nullptr;
@@ -76,10 +76,10 @@ struct HitArrays {
     Array<std::uint8_t>* hits = nullptr;  ///< 1: the ray has a row
 };
 
-/// Takes the first row of each ray.
+/// The collector takes the first row of each ray.
 class HitCollector final : public RowReceiver {
 public:
-    /// Sizes the arrays, which must outlive the object.
+    /// Resizes the arrays, which must outlive the object.
     HitCollector(const HitArrays& arrays, std::uint64_t rays);
 
     void put(const RowView& rows) override;
@@ -89,12 +89,12 @@ private:
     const HitArrays to_;
 };
 
-/// Takes the pixels of a slice: each ray is a row of pixels, and its direction has the length of a pixel.
+/// The collector fills the pixels of a slice: each ray is a row of pixels, and its direction has the length of a pixel.
 class PixelCollector final : public RowReceiver {
 public:
     static constexpr std::int32_t nothing = -1, overlap = -2;
 
-    /// Sizes the array, which must outlive the object.
+    /// Resizes the array, which must outlive the object.
     PixelCollector(Array<std::int32_t>& pixels, std::uint32_t width, std::uint64_t rays);
 
     void put(const RowView& rows) override;

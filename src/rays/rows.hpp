@@ -13,7 +13,7 @@
 
 namespace csgrt {
 
-/// A part of a ray that several regions claim: the numbers from `first_region` on, up to the next row's.
+/// A part of a ray that several regions claim. Their numbers are stored from `first_region` on, up to the next row's.
 struct OverlapRow {
     double in, out;
     std::uint32_t ray;  ///< number within the batch
@@ -35,7 +35,7 @@ struct RowView {
     std::size_t rows() const { return places.back().segments; }
 };
 
-/// Memory for rows, which is used again.
+/// Memory for rows, which is used for one batch after another.
 struct RowMemory {
     std::vector<kernel::RayCount> places;
     std::vector<std::int32_t> regions, in_solids, out_solids;
@@ -51,7 +51,7 @@ struct RowMemory {
     std::size_t bytes() const;
 };
 
-/// Resizes to at least `size` elements, and keeps the contents.
+/// Grows `memory` to at least `size` elements; keeps the contents.
 template <class T>
 T* room_for(std::vector<T>& memory, std::size_t size) {
     if (memory.size() < size) memory.resize(size + size / 4);

@@ -1,4 +1,5 @@
-// List tracers: what answers lists of rays. A Model traces on the caller's thread, a Renderer by its backend.
+// List tracers: the interface that traces lists of rays. A Model traces on the caller's thread, a Renderer by its
+// backend.
 #pragma once
 
 #include "rays/list.hpp"
@@ -6,7 +7,7 @@
 
 namespace csgrt {
 
-/// The regions that claim partitions: all; those that pictures show; or only the ghosts.
+/// The regions that claim partitions: all regions, the regions that pictures show, or only the ghosts.
 enum class ClaimingRegions { all, shown, ghosts };
 
 class ListTracer {

@@ -36,8 +36,8 @@ std::vector<SolidSegment> intersect_solid(const CompiledScene& scene, std::uint3
     std::vector<SolidSegment> segments;
     for (std::size_t i = 0; i < boundaries.size(); i += 2) {
         const kernel::Boundary &in = boundaries[i], &out = boundaries[i + 1];
-        // Aside of a face a ray may have the segments on the face's other side, too (kernels/geometry/beside.h).
-        if ((in.surface & MISSED) && !(in.t < out.t)) continue;  // unused room
+        // For a ray in a face, the segments on the two sides of the face are found (kernels/geometry/beside.h).
+        if ((in.surface & MISSED) && !(in.t < out.t)) continue;  // unused memory
         if ((in.surface & MISSED) && !segments.empty() && in.t <= segments.back().out) {
             if (out.t > segments.back().out) {
                 segments.back().out = out.t;

@@ -27,7 +27,7 @@ NearSolids::NearSolids(const CompiledScene& scene)
             set({}, std::numeric_limits<double>::infinity());
             continue;
         }
-        // The sphere has a margin, so that a box that is flat, or empty by mistake, has room around it, too.
+        // The sphere has a margin, so that it is larger than the box even if the box is flat or, by mistake, empty.
         const double radius = 0.75 * diagonal(box) + 1e-6 * scene.radius;
         set(narrow(0.5L * (wide(box.low) + wide(box.high))), radius * radius);
     }

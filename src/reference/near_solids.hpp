@@ -12,9 +12,9 @@
 
 namespace csgrt {
 
-/// A sphere around each solid, half as large again as the sphere around its box. The reference has to find faults, also
-/// of boxes: a solid whose box is too small by less than a third is still tried, so a solid that the box hides from the
-/// pipeline is seen. An unbounded solid is near every ray.
+/// A sphere around each solid. Its radius is 1.5 times the radius of the sphere around the solid's box, because the
+/// reference has to find faults of boxes, too: a solid whose box is too small by less than a third is still tried,
+/// though the pipeline misses it. An unbounded solid is near every ray.
 class NearSolids {
 public:
     explicit NearSolids(const CompiledScene& scene);
@@ -22,14 +22,14 @@ public:
     /// Calls call(solid) in ascending order, for the whole line of the ray.
     template <class Call>
     void for_each(const Ray& ray, const Call& call) const {
-        Vec3 d = ray.direction;  // of any length: scaled, so that none of its squares overflows or vanishes
+        Vec3 d = ray.direction;  // scaled below, so that no square overflows or vanishes
         const double longest = std::fmax(std::fabs(d.x), std::fmax(std::fabs(d.y), std::fabs(d.z)));
         d = {d.x / longest, d.y / longest, d.z / longest};
         for (std::size_t group = 0; group < groups_.size(); ++group) {
             const std::array<double, size> room = room_in(groups_[group], ray.origin, d);
             const std::size_t end = std::min(size, count_ - group * size);
             for (std::size_t i = 0; i < end; ++i)
-                if (!(room[i] < 0)) call(static_cast<std::uint32_t>(group * size + i));  // an overflow makes NaN
+                if (!(room[i] < 0)) call(static_cast<std::uint32_t>(group * size + i));  // an overflow makes a NaN
         }
     }
 
@@ -39,8 +39,8 @@ private:
         std::array<double, size> x, y, z, radius2;
     };
 
-    /// The radius' square less the distance's, times the direction's square: below zero if the line passes by.
-    /// Compilers turn the loop into vectors.
+    /// The square of the radius minus the square of the line's distance, times the square of the direction's length. It
+    /// is below zero if the line misses the sphere. Compilers vectorize the loop.
     static std::array<double, size> room_in(const Spheres& s, const Vec3& o, const Vec3& d) {
         const double size2 = d.x * d.x + d.y * d.y + d.z * d.z;
         std::array<double, size> room;

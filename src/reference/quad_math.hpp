@@ -20,7 +20,7 @@ inline quad scaled(quad x, int e) {
     return x * quad(std::ldexp(1.0, e));
 }
 
-/// The square root by Newton's steps on the double's root, 53 -> 106 -> 113 bits: within an ulp.
+/// The square root by Newton's steps from the root in double, 53 -> 106 -> 113 bits: within an ulp.
 inline quad root(quad x) {
     if (!(x > 0)) return x == 0 ? quad(0) : quad(std::sqrt(static_cast<double>(x)));
     quad y = std::sqrt(static_cast<double>(x));
@@ -31,7 +31,7 @@ inline quad root(quad x) {
 
 /// The parts of a number: magnitude 2^exponent, where the magnitude has 113 bits.
 __extension__ typedef unsigned __int128 Bits;
-/// A number taken apart, for exact products and sums.
+/// The parts of a number, for exact products and sums.
 struct QuadParts {
     Bits magnitude;
     int exponent;
@@ -49,7 +49,7 @@ inline QuadParts parts_of(quad x) {
 struct Wide {
     Bits high, low;
 
-    /// The number moved to the right; the last bit is set if a lost bit was.
+    /// The number shifted to the right; the last bit is set if a lost bit was set.
     Wide moved(int by) const {
         if (by == 0) return *this;
         if (by > 255) return {0, Bits((high | low) != 0)};
@@ -71,7 +71,7 @@ inline quad fma(quad a, quad b, quad c) {
     const Bits x1 = x.magnitude >> 64, x0 = x.magnitude & half, y1 = y.magnitude >> 64, y0 = y.magnitude & half;
     const Bits low = x0 * y0, middle = x0 * y1 + (low >> 64), other = x1 * y0 + (middle & half);
     const Wide product{x1 * y1 + (middle >> 64) + (other >> 64), (other << 64) | (low & half)};
-    // Leading bits: the product's is 224 or 225, moved to 252 or 253; c's is 112, moved to 253.
+    // The product's leading bit, 224 or 225, is shifted to 252 or 253; the leading bit of c, 112, is shifted to 253.
     Wide p{(product.high << 28) | (product.low >> 100), product.low << 28}, q{z.magnitude << 13, 0};
     const int p_exponent = x.exponent + y.exponent - 28, q_exponent = z.exponent - 141;
     const int exponent = p_exponent > q_exponent ? p_exponent : q_exponent;

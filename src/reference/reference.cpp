@@ -18,29 +18,29 @@ namespace {
 
 /// A partition that at least one region claims.
 struct ClaimedPartition {
-    kernel::Boundary in, out;              ///< the boundaries of the partition; their t is the partition's
+    kernel::Boundary in, out;              ///< the boundaries of the partition, with the partition's t
     bool in_leaves = false;                ///< `in` is where its solid ends (a subtraction exposes this surface)
     bool out_enters = false;               ///< `out` is where its solid begins
     std::uint32_t region = 0;              ///< the lowest claimant
-    std::vector<std::uint32_t> claimants;  ///< all of the region's rank, ascending; kept only if there are several
+    std::vector<std::uint32_t> claimants;  ///< all of the region's rank, ascending; empty if there is only one
 };
 
 }  // namespace
 
-// One ray's answer, and the memory that the next ray uses again.
+// The answer of one ray, and memory that is used for one ray after another.
 struct Reference::RayAnswer {
     std::vector<kernel::Boundary> boundaries;
     std::vector<ClaimedPartition> partitions;
     Weaver weaver;
     std::vector<std::uint32_t> solids, table,
         claimants;                      ///< of a partition: its solids, their regions, the regions that claim it
-    std::vector<std::uint32_t> beside;  ///< the same on one side of a face that the ray runs in
+    std::vector<std::uint32_t> beside;  ///< the claimants on one side of a face in which the ray runs
     std::vector<std::uint8_t> values;   ///< of a tree's operands, while it is evaluated
     std::vector<kernel::Boundary> row_boundaries;  ///< of a list's ray
     std::vector<kernel::PartitionNode> nodes;
     std::vector<kernel::OverlapRecord> overlap_records;
     std::size_t woven = 0, overlaps = 0;
-    std::size_t first_seen = SIZE_MAX;  ///< index in `partitions` of the first one that ends behind t_min
+    std::size_t first_seen = SIZE_MAX;  ///< index in `partitions` of the first partition that ends behind t_min
 };
 
 std::unique_ptr<ReferenceKernels> make_kernels(const CompiledScene& scene, const Settings& settings) {
@@ -75,7 +75,7 @@ Reference::Reference(const CompiledScene& scene, const ReferenceKernels& kernels
     }
 }
 
-// The tree's nodes stand in postfix order: an operator finds its operands' values on the stack.
+// The tree's nodes are in postfix order: an operator finds its operands' values on the stack.
 bool Reference::inside(std::uint32_t region, const std::vector<std::uint32_t>& solids,
                        std::vector<std::uint8_t>& values) const {
     values.clear();
@@ -129,12 +129,12 @@ void Reference::find_claimants(const WovenPartition& partition, std::uint32_t mi
     for (const std::uint32_t region : table)
         if (inside(region, solids, answer.values)) claimants.push_back(region);
     if (claimants.empty()) return;
-    // Claimants of a later rank yield to the first rank, and no overlap is reported.
+    // Claimants of a later rank are removed, and no overlap with them is reported.
     const std::uint32_t rank = rank_of(scene_.region_info[claimants.front()]);
     std::erase_if(claimants, [&](std::uint32_t region) { return rank_of(scene_.region_info[region]) != rank; });
 }
 
-// The side whose regions come first has the partition, and its overlap.
+// The side with the first claimants, in their order, decides the partition and its overlap.
 void Reference::find_beside(const WovenPartition& partition, std::uint32_t beyond, RayAnswer& answer) const {
     auto &claimants = answer.claimants, &here = answer.beside;
     claimants.clear();
@@ -190,7 +190,7 @@ void Reference::evaluate(const kernel::Frame& frame, const kernel::RayRecord& ra
     }
 }
 
-// The results do not depend on which thread computes a part.
+// The results do not depend on the thread that computes a part.
 template <class Work>
 void Reference::parallel(std::size_t count, Watch* watch, const Work& work) const {
     std::mutex mutex;
@@ -243,7 +243,7 @@ std::vector<kernel::Pixel> Reference::render(const PreparedFrame& prepared, Watc
     return pixels;
 }
 
-// The rows use a node for each claim, as kernel 4 leaves them: a boundary's index is odd where a solid ends.
+// Each claim becomes a node, as kernel 4 writes nodes: a boundary's index is odd where a solid ends.
 void Reference::append_rows(const kernel::Frame& frame, const kernel::RayRecord& record, std::uint32_t ray,
                             Fields fields, RayAnswer& answer, RowMemory& rows) const {
     const std::size_t count = answer.partitions.size();

@@ -1,5 +1,5 @@
-// Reference: traces rays on the CPU to check devices, bit by bit. It tries every solid near the ray, keeps unique
-// lists, and evaluates trees as the model gives them.
+// Reference: traces rays on the CPU to check devices, bit by bit. It tries every solid near the ray, and evaluates the
+// trees as the model gives them.
 #pragma once
 
 #include <cstdint>
@@ -18,15 +18,15 @@ struct ReferenceCounts {
     std::uint64_t ends = 0, segments = 0, partitions = 0, overlaps = 0;
 };
 
-/// The judge of the pipeline: it finds the same partitions in another way. It shares the geometry with the kernels, and
-/// nothing of their walk, weave and evaluation.
+/// The reference for the pipeline: it finds the same partitions by other methods. It shares the geometry with the
+/// kernels, but not the walk, the weave and the evaluation.
 class Reference {
 public:
-    /// Refers to both, which must outlive it.
+    /// Refers to the two arguments, which must outlive the reference.
     Reference(const CompiledScene& scene, const ReferenceKernels& kernels);
 
-    /// Renders the pixels by row from the top left, or those with the numbers `some`. Throws Error (interrupted) if
-    /// `watch`, which may be null, says so.
+    /// Renders the pixels row by row from the top left, or only the pixels with the numbers `some`. Throws Error
+    /// (interrupted) if `watch`, which may be null, ends the work.
     std::vector<kernel::Pixel> render(const PreparedFrame& prepared, Watch* watch, ReferenceCounts& counts,
                                       const std::vector<std::uint32_t>* some = nullptr) const;
     /// Traces every ray of a list, and puts the rows into the receiver.
@@ -35,11 +35,11 @@ public:
 
 private:
     struct RayAnswer;
-    /// Does the ray run in a face of one of its solids?
+    /// Does the ray run in a face of one of the partition's solids?
     static bool in_contact(const WovenPartition& partition, const std::vector<kernel::Boundary>& boundaries);
     static bool is_one_solid(const WovenPartition& partition, const std::vector<kernel::Boundary>& boundaries);
-    /// The regions of the first rank that claim a partition, ascending, by its solids except those whose boundaries
-    /// have any of the marks `missed`.
+    /// The regions of the first rank that claim a partition, ascending. Solids whose boundaries have any of the marks
+    /// `missed` do not count.
     void find_claimants(const WovenPartition& partition, std::uint32_t missed, RayAnswer& answer,
                         std::vector<std::uint32_t>& claimants) const;
     /// The claimants of a partition in which the ray runs in a face, by the rule of contact (kernels/boolean/claim.h).

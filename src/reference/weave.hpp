@@ -1,5 +1,5 @@
-// Weaving in the simple way: sorts all boundaries, takes those within the tolerance of the first as one event, and
-// keeps the covering segments in a unique list.
+// Weave: the simple method for the reference. It sorts all boundaries, takes the boundaries within the tolerance of the
+// first as one event, and keeps a list of the covering segments.
 #pragma once
 
 #include <algorithm>
@@ -21,10 +21,10 @@ struct WovenPartition {
     std::vector<std::uint32_t> segments;              ///< covering segments, ascending, each once
 };
 
-/// Memory for one ray after another: new memory for each took a sixth of the time of a ray at a few solids.
+/// Memory that is used for one ray after another: new memory took a sixth of the time of a ray through a few solids.
 struct Weaver {
     std::vector<std::uint32_t> order, covering, begun, ended, stay, enter, next;
-    std::vector<WovenPartition> partitions;  ///< those of the last ray first, then unused ones of earlier rays
+    std::vector<WovenPartition> partitions;  ///< the partitions of the last ray, then unused partitions of earlier rays
 
     WovenPartition& append(std::size_t count) {
         if (count == partitions.size()) partitions.emplace_back();
@@ -33,7 +33,7 @@ struct Weaver {
 };
 
 /// Makes partitions. `boundaries`: two boundaries a segment, in then out; their t and the tolerance are in the
-/// precision of the geometry that found them. The partitions are `weaver`'s, until it weaves again.
+/// precision of the geometry that found them. The partitions are valid until `weaver` is used again.
 template <class Boundary>
 std::span<const WovenPartition> weave(const std::vector<Boundary>& boundaries, decltype(Boundary::t) tolerance,
                                       Weaver& weaver) {
@@ -54,8 +54,8 @@ std::span<const WovenPartition> weave(const std::vector<Boundary>& boundaries, d
         while (end < order.size() && (boundaries[order[end]].t == t || boundaries[order[end]].t - t <= tolerance))
             ++end;
 
-        // The segments that cover the next partition: those that cover the last, less those that end here, and those
-        // that begin here, unless they end here too.
+        // The segments that cover the next partition: the segments of the last partition without those that end here,
+        // and the segments that begin here and do not end here.
         for (auto* list : {&begun, &ended, &stay, &enter, &next}) list->clear();
         for (std::size_t i = begin; i < end; ++i) (order[i] % 2 ? ended : begun).push_back(order[i] / 2);
         std::sort(begun.begin(), begun.end());

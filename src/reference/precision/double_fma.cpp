@@ -12,7 +12,7 @@
 #pragma clang attribute push(__attribute__((target("fma"))), apply_to = function)
 #else
 #pragma GCC push_options
-#pragma GCC target("fma,prefer-vector-width=128")  // wider copies of structs wait for their parts to be stored
+#pragma GCC target("fma,prefer-vector-width=128")  // wider copies of structs have to wait until the parts are stored
 #endif
 
 #ifdef __OPTIMIZE__

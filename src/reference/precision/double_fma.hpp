@@ -1,4 +1,5 @@
-// Whether the reference is also compiled for processors with fma; others have it anyway, or never.
+// Whether the reference is compiled a second time, for processors with fma. Other targets have fma in any case, or
+// never.
 #pragma once
 
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__FMA__)

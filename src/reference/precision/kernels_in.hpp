@@ -1,4 +1,4 @@
-// The kernels once more, in the namespace CSGRT_KERNELS and with CSGRT_NUMBERS, for the one file that includes this.
+// The kernels once more, in the namespace CSGRT_KERNELS and with CSGRT_NUMBERS, for the file that includes this header.
 #include "reference/reference_kernels.hpp"
 
 #include "compile/records/in_precision.hpp"

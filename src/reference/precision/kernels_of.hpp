@@ -1,5 +1,5 @@
-// ReferenceKernels over the kernels in the namespace CSGRT_KERNELS, made by CSGRT_MAKE_KERNELS. This is the body of the
-// one file that includes it.
+// ReferenceKernels over the kernels in the namespace CSGRT_KERNELS, made by CSGRT_MAKE_KERNELS. The .cpp file of a
+// precision defines these macros and includes this header, which has all the code.
 #include "compile/bvh/space.hpp"
 #include "compile/records/conversions.hpp"
 #include "reference/reference_kernels.hpp"
@@ -9,7 +9,7 @@ namespace {
 
 k::MaterialRecord convert(const kernel::MaterialRecord& m) { return std::bit_cast<k::MaterialRecord>(m); }
 
-/// An empty list, in the memory of a used list if its type is the same.
+/// An empty list. It reuses the memory of `used` if the type is the same.
 template <class To, class From>
 std::vector<To> again([[maybe_unused]] std::vector<From>&& used, To*) {
     if constexpr (std::is_same_v<To, From>) {
@@ -139,8 +139,8 @@ public:
     }
 
 private:
-    /// Solids whose boxes the ray misses are passed over: 113 bits are slow. The reference in double checks that boxes
-    /// hold their solids.
+    /// Solids whose boxes the ray misses are skipped, because 113 bits are slow. The reference in double checks that
+    /// boxes contain their solids.
     template <class Meet>
     void meet_boxes(const k::Frame& frame, const k::ray3& r, real t_min, const Meet& meet) const {
         for (std::uint32_t solid = 0; solid < frame.unbounded_count; ++solid) meet(solid);

@@ -1,4 +1,4 @@
-// The kernels on the host in 113 bits, to show the effect of rounding on the others.
+// The kernels on the host in 113 bits, to show the effect of rounding in the other precisions.
 #include "reference/quad_math.hpp"
 
 #define CSGRT_NUMBERS        \
