@@ -1,6 +1,6 @@
 // Kernel 0: finds the tiles of a picture that can see anything. The other tiles get no rays. For each tile the kernel
 // also lists the nodes of the hierarchy that the tile's 64 rays may meet, so that each ray tests the listed nodes
-// alone. If every partition is wanted, a GPU has no lists.
+// alone. For every partition a GPU makes no lists.
 #include "traversal/beam.h"
 #include "traversal/bvh_cursor.h"
 

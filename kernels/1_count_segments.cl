@@ -1,5 +1,5 @@
 // Kernel 1: counts each ray's segments. Then the host allocates exactly the memory that the segments need, or the next
-// kernels see whether the buffers at hand suffice (shared/capacity.h). First each ray walks the hierarchy, in float,
+// kernels check whether the existing buffers suffice (shared/capacity.h). First each ray walks the hierarchy, in float,
 // and lists its candidates: the solids that it may meet. Then a work-item intersects each candidate, so that no ray
 // waits for its many solids one after the other.
 //
@@ -44,7 +44,7 @@ static void intersect_candidate(__global const Frame* frame, Geometry g, __globa
     ray3 r, own;
     ray_range wanted;
     u32 count, near = 0;
-#ifdef CSGRT_PACKETS  // then 1_packet_candidates.cl has counted some
+#ifdef CSGRT_PACKETS  // with packets, 1_packet_candidates.cl has counted some candidates' segments
     if (c.count != UNCOUNTED) return;
 #endif
     if (!ray_of(frame, rays, number_of(frame, listed, c.ray), &r, &wanted)) return;

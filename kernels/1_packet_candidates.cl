@@ -1,6 +1,6 @@
 // Kernel 1's first step on processors, for a picture's tiles and for lists: packets of eight rays list their
-// candidates. Solids that packets know are intersected here, too. count_segments (1_count_segments.cl) does the rest:
-// the candidates that packets cannot intersect. A list's packet is eight consecutive rays. Rays of different directions
+// candidates. Closed-form solids are intersected here, too. count_segments (1_count_segments.cl) does the rest: the
+// candidates that packets cannot intersect. A list's packet is eight consecutive rays. Rays of different directions
 // cost little more in a packet than alone.
 //
 //   count packet candidates -> (scan) -> list packet candidates -> count segments -> ...
@@ -101,7 +101,7 @@ typedef struct {
     __global Boundary* found;
 } packet_list;
 
-// Makes a solid a candidate of the active rays.
+// Adds a solid to the candidates of the active rays.
 static void list_solid(packet_list* list, Geometry g, u32 index, u32 active_mask) {
     const SolidRecord solid = g.solids[index];
     real in[PACKET], out[PACKET];

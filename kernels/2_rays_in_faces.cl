@@ -1,6 +1,6 @@
 // Kernels 1 and 2 for candidates whose ray may run in a face of the solid: kernel 1 has marked them (IN_SOME_FACE).
 // Such rays are rare but costly: within kernels 1 and 2 their work would slow down all other rays of a GPU (measured:
-// docs/experiments.md). A program has these kernels if its scene has such solids (FLAT_FACED).
+// docs/experiments.md). A program has these kernels if its scene has solids of the types FLAT_FACED.
 #include "traversal/camera.h"
 #include "shared/capacity.h"
 #include "shared/scene_args.h"

@@ -5,9 +5,9 @@
 // The boundaries are sorted as order_boundaries sorts them: in blocks, which are merged two by two. The order is stored
 // in the nodes: by turns in `in_boundary` and `next`, and in `next` at last. Then one work-item a ray passes the events
 // from front to back. Partitions and their nodes are the same as weave's. In place of the partitions' bits, the sweep
-// keeps a count of each solid's open segments and a status tree of the regions (boolean/status_tree.h). Count and tree
-// change by a few words where a solid begins or ceases to cover. A launch passes a limited number of boundaries, so
-// that it is short, and the next launch goes on.
+// keeps a count of each solid's open segments and a status tree of the regions (boolean/status_tree.h). Where a solid
+// begins or ceases to cover, only a few words of them change. A launch passes a limited number of boundaries, so that
+// it is short, and the next launch goes on.
 #include "traversal/camera.h"
 #include "boolean/status_tree.h"
 #include "geometry/beyond.h"

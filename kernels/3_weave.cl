@@ -7,11 +7,11 @@
 //   partitions    |P1|P2 |  P3 |4|  P5  |        a doubly linked list by index, a bit array each:
 //   bits A B C    100 101 111 110 010            which segments cover the partition
 //
-// First each boundary counts how many come before it (by t, then by number): its position. Then one sweep, front to
-// back, makes events. An event is a boundary together with all boundaries that follow within Frame.tolerance (a length,
-// whatever the direction's length). So surfaces that coincide change together, whichever comes first, and a segment
-// that begins and ends in one event vanishes. The event's t is the t of its first boundary. A partition's node has the
-// index of this boundary's position, so the list needs no memory but the 2 * segments nodes.
+// First the position of each boundary is found: the number of boundaries before it (by t, then by number). Then one
+// sweep, front to back, makes events. An event is a boundary together with all boundaries that follow within
+// Frame.tolerance (a length, whatever the direction's length). So coinciding surfaces take effect together, whichever
+// comes first, and a segment that begins and ends in one event vanishes. The event's t is the t of its first boundary.
+// A partition's node has the index of this boundary's position, so the list needs no memory but the 2 * segments nodes.
 #include "traversal/camera.h"
 #include "shared/capacity.h"
 

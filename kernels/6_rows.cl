@@ -71,8 +71,8 @@ __kernel void write_rows(__global const Frame* frame, __global const RayRecord* 
     }
 }
 
-// Describes one boundary of a row: the solid whose surface it is, and the normal; -1 and zeros where the range cuts the
-// row.
+// Describes one boundary of a row: the solid whose surface it is, and the normal; -1 and a zero vector where the range
+// cuts the row.
 static void describe_boundary(__global const Frame* frame, Geometry g, __global const RayRecord* rays,
                               __global const Boundary* boundaries, u32 ray, u32 number, u32 is_out, size_t place,
                               __global int* solids, __global wide* normals) {
@@ -121,7 +121,7 @@ static cover cover_of(OverlapRecord overlap_record, __global const SolidRecord* 
     return c;
 }
 
-// Counts, one record a work-item, for how many claims list_claimants needs memory.
+// Counts the claims for which list_claimants needs memory, one record a work-item.
 __kernel void count_claimants(EVALUATION_ARGS, __global const RayCount* offsets, __global const Boundary* boundaries,
                               __global const u32* bits, __global const OverlapRecord* overlap_records,
                               u32 overlap_count, __global RayCount* places) {

@@ -1,6 +1,6 @@
-// Draws the first hits of a picture, from the nodes of a tile to its pixels, without segments in global memory. The
-// header that is compiled before this file says what a work-item draws: one ray (shading/first_hits_ray.h), or on
-// processors a packet of eight (packet/first_hits_packet.h).
+// Draws the first hits of a picture in one kernel, from a tile's list of nodes to its pixels, without segments in
+// global memory. The header that is compiled before this file says what a work-item draws: one ray
+// (shading/first_hits_ray.h), or on processors a packet of eight (packet/first_hits_packet.h).
 //
 // For a batch whose picture is row-major the host launches a work-item for each ray of all tiles, before it knows how
 // many tiles the list has. Work-items behind the list's last entry return at once.

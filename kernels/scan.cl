@@ -20,8 +20,8 @@ static RayCount plus(RayCount a, RayCount b) {
     return a;
 }
 
-// Replaces each of a block's `size` entries by the sum of `before` and the entries before it. One group runs it.
-// Returns the sum of all.
+// Replaces each of a block's `size` entries by the sum of `before` and the entries before it. One group runs the
+// function. Returns the sum of `before` and all entries.
 static RayCount scan_block(__global RayCount* counts, u32 size, RayCount before, __local RayCount* entries,
                            __local RayCount* partial) {
     const u32 item = (u32)get_local_id(0), first = item * SCAN_EACH;
@@ -64,7 +64,7 @@ __kernel void scan_blocks(__global RayCount* counts, __global RayCount* sums, u3
     if (get_local_id(0) == 0) sums[block] = sum;
 }
 
-// Sums the blocks' sums. One group runs it.
+// Sums the blocks' sums. One group runs the kernel.
 __kernel void scan_sums(__global RayCount* sums, u32 size) {
     __local RayCount entries[SCAN_PLACES], partial[SCAN_GROUP];
     RayCount sum;

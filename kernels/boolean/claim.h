@@ -2,7 +2,8 @@
 //
 // A region's tree is a union of terms (the name is from Goldfeather et al. 1986). A term that is no leaf is an
 // intersection, a difference or a xor. A term can only be true where one of the leaves that start it is covered
-// (StartRecord). So only terms that some solid of the partition starts are evaluated, however large the region is.
+// (StartRecord). So the kernel evaluates only the terms that some solid of the partition starts, however large the
+// region is.
 //
 //   region   (a + b - c) u (d - e) u f
 //   starts    a or b        d        f       cover {c, d}: only d - e is evaluated
@@ -323,7 +324,7 @@ FN claim find_claim(cover c, ENDS const u32* starting, const covered_solids* lis
     return found;
 }
 
-// Do all segments belong to one solid?
+// Are all listed segments of one solid?
 FN u32 is_one_solid(const covered_solids* list) {
     u32 i;
     for (i = 1; i < list->count && i < FEW && list->solids[i] == list->solids[0]; ++i) {

@@ -3,8 +3,8 @@
 // The list of the ray's tile has the nearest nodes first (kernel 0). Solids that are not intersected yet begin at the
 // next node's distance or behind it. So every event before this distance is complete: no segment can join the event.
 // Complete events are passed, and their partitions evaluated, as in kernels 3 and 4. The first claim ends the search.
-// Segments that have ended make room for others. A ray that has more than SWEEP_SEGMENTS at a time overflows, and the
-// host has kernels 1 to 5 trace it.
+// Slots of segments that have ended are used again. A ray with more than SWEEP_SEGMENTS segments at a time overflows,
+// and kernels 1 to 5 trace it instead.
 //
 //   nodes      |--seen--|   |--seen--|      |--unseen--|
 //   boundaries  i     o  i    i   o         :       o  o
@@ -33,7 +33,7 @@ typedef struct {
     Boundary seen;                            // the boundary where the current partition begins, if it is claimed
     u32 region;                               // the region that claims the current partition, or NONE
     u32 from_within;                          // the partition begins where a solid ends
-    u32 goes_on;                              // the same region claims the partition before
+    u32 goes_on;                              // the same region claims the partition before the current one
     u32 marked;                               // has any segment so far MISSED_... set?
     u32 beyond;                               // see cover
 } sweep;
@@ -214,7 +214,7 @@ FN int advance(sweep* w, scene_tables s, real tolerance, real after, real horizo
         }
         going = !found && is_complete(w, tolerance, horizon);
     }
-    // A region that claims when no more events come claims to the end of the ray.
+    // After the last event, a region that claims does so up to the ray's end.
     return found || (w->region != NONE && horizon == REAL_INFINITY);
 }
 

@@ -1,5 +1,5 @@
-// Rows: the partitions of a ray that the answer to a list holds. A region claims each row; neighbours of one region are
-// joined, and rows are cut at the ray's range. Kernel 6 and the reference use the same functions for rows.
+// Rows: the answer to a list for one ray. A row is made of neighbouring partitions that one region claims, and rows are
+// cut at the ray's range. Kernel 6 and the reference use the same functions for rows.
 #ifndef CSGRT_BOOLEAN_ROWS_H
 #define CSGRT_BOOLEAN_ROWS_H
 
@@ -50,8 +50,8 @@ FN wide row_distance(ray_rows w, real t) {
 #endif
 }
 
-// Cuts a row at the ray's range. 0: the range holds nothing of the row. A range of one point is in the row that begins
-// there, not in the row that ends there.
+// Cuts a row at the ray's range. Returns 0 if nothing of the row is within the range. A range of one point is in the
+// row that begins there, not in the row that ends there.
 FN int cut_row(ray_rows w, ray_row* row) {
     const wide in = row->in, out = row->out;
     if (in < w.near) {

@@ -22,7 +22,7 @@
 #define BERNSTEIN_SIZE 25  // coefficients at most: degree 24
 #define SIGN_DEPTH (sizeof(real) == 4 ? 22u : 28u)
 #define TIP_DEPTH (sizeof(real) == 4 ? 22u : 52u)
-#define TIP_PIECES REAL(0x1p20)  // an interval is next to 0 or 1 if it is nearer than so many of its own sizes
+#define TIP_PIECES REAL(0x1p20)  // an interval counts as next to 0 or 1 within so many of its sizes
 
 // (1 - t) a + t b, exact at 0 and 1.
 FN real blend(real t, real a, real b) { return real_fma(t, b, (REAL(1) - t) * a); }

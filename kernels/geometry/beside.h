@@ -21,8 +21,8 @@
 #include "quadratic.h"
 #include "touch.h"
 
-// Distances in units of the rounding of single numbers: how far a corner may be from the ray for the ray to be in the
-// face, and how far the ray is moved aside.
+// Distances in units of the rounding of one number. IN_FACE: a corner that is no farther from the ray's plane counts as
+// in it. ASIDE: the distance by which the ray is moved.
 #define IN_FACE REAL(1)
 #define ASIDE REAL(8)
 #define STEEPEST REAL(0x1p60)

@@ -23,7 +23,7 @@ typedef struct {
 } quadratic;
 
 // The quadratic x^2 + y^2 - m^2 with m = m0 + m1 u, the radius along the ray. Its discriminant b^2 - a c equals |m0 d -
-// m1 o|^2 - (o x d)^2 (all in x, y), which does not cancel where b^2 and a c do.
+// m1 o|^2 - (o x d)^2 (all in x, y), which keeps its digits where b^2 and a c cancel.
 //
 // A cone with an apex has its local origin there (m0 = m1 z / d.z exactly), so that rays past the apex keep their
 // digits.

@@ -209,8 +209,8 @@ NOINLINE_FN segments crossed_eto_intersect(Geometry tables, SolidRecord solid, r
     return spans_between(whole_line(), 0, roots, count > 4 ? 4 : count & ~1, 0);
 }
 
-// The normal of the factor that vanishes; reversed where the other factor is negative: there the inside of both is the
-// solid's outside.
+// The normal of the factor that vanishes; It is reversed where the other factor is negative: there the inside of this
+// factor is the solid's outside.
 NOINLINE_FN vec3 crossed_eto_normal(GLOBAL const real* p, ray3 r, real t) {
     const vec3 at = local_point(to_local(p, r), t), still = make_vec3(0, 0, 0);
     const real rho = real_sqrt(real_fma(at.x, at.x, at.y * at.y));

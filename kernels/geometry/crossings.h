@@ -16,7 +16,7 @@
 
 #include "segments.h"
 
-#define LEAVES 0x80000000u  // set in Boundary.surface of a boundary where the ray leaves a solid of crossings
+#define LEAVES 0x80000000u  // set in Boundary.surface where the ray leaves a solid whose crossings were collected
 
 // The crossings of a ray with one solid, collected in the memory of the solid's boundaries.
 typedef struct {
@@ -101,14 +101,14 @@ FN u32 close_crossings(crossings c) {
 }
 
 // Pairs crossings that are already marked (LEAVES) where the ray goes out. Every out ends a segment, which has no
-// length unless an in came right before it. More segments of no length may follow, because memory for all crossings was
-// counted. Returns the number of segments.
+// length unless an in comes right before the out. More segments of no length may follow, because memory for all
+// crossings was counted. Returns the number of segments.
 FN u32 close_marked_crossings(crossings c, u32 outs) {
     u32 inside = c.behind > 0 && !(c.last_surface & LEAVES);  // whether the ray is inside at t_min
     u32 count = (c.ahead + 1) / 2, kept = 0, out = outs, i;
     if (count < outs) count = outs;
     if (!c.boundaries || count == 0) return count;
-    // The crossings that stay: the outs, and ins before an out.
+    // Keeps the outs, and the ins that are right before an out.
     for (i = 0; i < c.ahead; ++i)
         if ((c.boundaries[i].surface & LEAVES) || (i + 1 < c.ahead && (c.boundaries[i + 1].surface & LEAVES))) {
             Boundary e = c.boundaries[i];

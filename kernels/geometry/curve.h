@@ -40,7 +40,7 @@ typedef struct {
 } curve_point;
 
 // The point at t, by the last step of de Casteljau's algorithm, between the points of two curves of one degree less.
-// Each of these two points is summed as in Horner's rule (Farin). All terms have one sign where the coefficients do.
+// Each of these two points is summed as in Horner's rule (Farin). If all coefficients have one sign, so have all terms.
 FN curve_point curve_at(GLOBAL const real* p, u32 degree, real t) {
     curve_point c;
     real s = REAL(1) - t, factor = 1, n = REAL(degree);

@@ -85,7 +85,7 @@ FN profile_point profile_at(GLOBAL const real* p, u32 degree, u32 stride, real t
 }
 
 // The polynomial f of a curve, in Bernstein form: products of linear forms of its control points. The values at 0 and 1
-// are one difference of products each, and the same for every curve that ends in this point.
+// are one difference of products each. They are the same for every curve with the same end point.
 FN void radial_form(GLOBAL const real* p, u32 degree, u32 stride, axis_ray a, real* f) {
     real less[CURVE_SIZE], more[CURVE_SIZE], x[CURVE_SIZE];  // each times the binomial coefficient
     real binomial = 1;
@@ -126,7 +126,7 @@ FN radial_root root_of_form(GLOBAL const real* p, u32 degree, u32 stride, axis_r
         real h = c.z - a.oz, value, slope;
         real room = real_fma(c.r - a.p, c.r + a.p, REAL(0));
         if (a.flat) {
-            // |dz| sqrt(r^2 - p^2) - |h| across, which has f's sign and does not fade with dz
+            // |dz| sqrt(r^2 - p^2) - |h| across, which has f's sign and does not vanish with dz
             real reach = room > 0 ? real_sqrt(room) : REAL(0);
             value = real_fma(real_abs(a.dz), reach, -real_abs(h) * a.across);
             slope = h > 0 ? -c.dz * a.across : c.dz * a.across;
@@ -151,7 +151,7 @@ FN radial_root root_of_form(GLOBAL const real* p, u32 degree, u32 stride, axis_r
         root.within = !(room > 0);
     }
     // Where the curve leaves the hyperbola's vertex the root of `room` has few digits, though the crossing may be
-    // sharp: z = oz + s dz and r^2 = p^2 + (s across)^2, by Newton's method in both.
+    // sharp: z = oz + s dz and r^2 = p^2 + (s across)^2, by Newton's method in the two unknowns.
     for (step = 0; step < 2; ++step) {
         real height = (c.z - a.oz) - root.s * a.dz;
         real x = root.s * a.across;
@@ -179,7 +179,7 @@ typedef struct {
     real low, high;
     int high_positive;  // f at `high`
     int above;          // z > oz between the splits
-    int is_last;        // no part follows `high`; high = 1 does not tell, because a split may round to 1
+    int is_last;        // no part follows `high` (a split may round to 1, too)
     radial_root ahead;  // a crossing that is found already, unless `within` is 1
 } profile_walk;
 

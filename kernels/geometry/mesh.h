@@ -15,7 +15,7 @@ typedef struct {
     GLOBAL const BvhNode* nodes;
     GLOBAL const u32* triangles;
     upright_ray ray;
-    real edge_on;  // the ray may run in a plane with an edge whose points have a smaller product
+    real edge_on;  // an edge whose two points have a smaller product may lie in one plane with the ray
     slab_ray slab;
     bvh_cursor cursor;
     u32 next, last;  // triangles of the leaf that are left
@@ -26,7 +26,7 @@ typedef struct {
     u32 near_edge;   // the ray has come near a line through two corners
 } mesh_walk;
 
-// The product of an edge's two points that counts as 0, in units of their distance from a line through 0: the points
+// The limit below which the product of an edge's two points counts as 0, per rounding of a point's position: the points
 // lie within twice MESH_RADIUS of 0.
 #define EDGE_ON (REAL(8) * MESH_RADIUS)
 

@@ -28,8 +28,8 @@
                  1.000001)  // the searched interval is a little larger than the solid, so both its limits are outside
 #define METABALL_LEAST BY_PRECISION(0x1p-18, 0x1p-45, 0x1p-90)  // of the interval
 // The number of halvings that decide nothing, for the solid and for each point, before the least interval becomes
-// METABALL_COARSER times as large. Where F is 0 all along the ray but for rounding, halving would not end otherwise.
-// The rest of the ray is still searched.
+// METABALL_COARSER times as large. Without this limit halving would not end where F is 0 all along the ray except for
+// rounding. The rest of the ray is still searched.
 #define METABALL_STEPS 500
 #define METABALL_POINT_STEPS 64
 #define METABALL_COARSER 32

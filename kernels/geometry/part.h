@@ -1,6 +1,6 @@
 // Particle: two balls on the local z axis and the cone that touches both. Parameters: affine (12, a similarity), then
 // z0, r0, z1, r1 of the balls, the cone's radius m0 + m1 z, and the range of z in which the cone runs: between the
-// circles where it touches the balls. There is no cone (low > high) if one ball contains the other.
+// circles where it touches the balls. If one ball contains the other, there is no cone: low > high.
 //
 //         .-""-._____
 //        /   :       ``.        The solid is convex: the least in and the greatest out of its parts along a ray are its

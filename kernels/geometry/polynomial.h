@@ -186,7 +186,7 @@ FN int sign_changes(quartic p, real low, real high, real* roots) {
     return count;
 }
 
-// The inside intervals of `s` (bounded, in u + shift), given the sign changes in it.
+// The intervals of `s` inside the solid, from the sign changes in `s`. `inside`: the ray is inside at s.low.
 FN segments spans_between(span s, int inside, const real* roots, int count, u32 surface) {
     segments h = no_segments();
     real low = s.low;

@@ -27,7 +27,7 @@ FN cut meet_profile(cut k, GLOBAL const real* p, u32 degree, u32 stride, axis_ra
     return k;
 }
 
-// Adds the plane that a line across the axis sweeps. Another solid may share the plane, so the plane's t is used,
+// Adds the plane that a line across the axis sweeps. Another solid may share this plane, so the plane's t is used,
 // unless the ray nearly runs along the plane.
 FN cut meet_flat_line(cut k, GLOBAL const real* p, axis_ray a, Geometry g, u32 plane, ray3 r, u32 surface) {
     profile_walk w;

@@ -3,7 +3,7 @@
 //        in0      out0         in1      out1
 //   -----|=========|-----------|=========|-----> t        count = 2
 //
-// `surface` numbers the surfaces of a solid; each <solid>.h names them.
+// `surface` numbers the surfaces of a solid; each <solid>.h says which number is which surface.
 #ifndef CSGRT_GEOMETRY_SEGMENTS_H
 #define CSGRT_GEOMETRY_SEGMENTS_H
 

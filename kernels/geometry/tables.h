@@ -10,7 +10,7 @@ typedef struct {
     GLOBAL const real* reals;
     GLOBAL const PlaneRecord* planes;
     GLOBAL const u32* words;
-    GLOBAL const BvhNode* inner_nodes;  // hierarchies inside solids of many elements
+    GLOBAL const BvhNode* inner_nodes;  // the hierarchies of solids with many elements (meshes, sketches, metaballs)
 #ifndef __OPENCL_VERSION__
     u32 quartic;  // the host chooses at run time; a program for a device is compiled for one method
 #endif

@@ -1,7 +1,7 @@
 // Touch: a ray touches a solid all along a segment, as far as rounding lets csgrt tell. The ray runs in a face or along
-// a wall, or its depth in the solid is no more than rounding. Both boundaries of the segment are marked with the sides
-// to which the ray would miss the solid (MISSED_...). The code is here and not in each solid, because it is seldom
-// needed: inlined rare code takes a GPU's registers and keeps a processor from using vectors.
+// a wall, or its depth in the solid is no more than rounding. The two boundaries of the segment are marked with the
+// sides on which the moved ray would miss the solid (MISSED_...). The code is here and not in each solid, because it is
+// seldom needed: inlined rare code takes a GPU's registers and keeps a processor from using vectors.
 #ifndef CSGRT_GEOMETRY_TOUCH_H
 #define CSGRT_GEOMETRY_TOUCH_H
 

@@ -54,7 +54,8 @@ FN u32 first_hits_of(packet* p, __global const Frame* f, scene_tables s, __globa
             prefetch_node(s, next->node);
             *overflow_mask |= take_subtree(p, s, e.node, going, &pending);
         }
-        // Solids of later nodes are added together with these, as long as no ray has an event to pass before.
+        // Solids of later nodes are added together with the pending solids, as long as no ray has an event before these
+        // nodes.
         while (!are_enough(&pending) && e.node != NONE && next->node != NONE &&
                !(bits_of(vload8(0, p->next_events) < next->entry) & going)) {
             prefetch_node(s, next[1].node);

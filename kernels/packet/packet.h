@@ -78,7 +78,8 @@ FN u32 bits_of(long8 x) { return bits_of(convert_int8(x)); }
 FN int8 of_bits(u32 bits) { return ((int8)((int)bits) & (int8)(1, 2, 4, 8, 16, 32, 64, 128)) != 0; }
 
 // Numbers of rays. A work-item has eight numbers (or positions) in a row, but the rays of a packet are two rows of four
-// pixels of the tile. first_of_packet: the first ray's number. ray_of_packet: ray k's number minus the first ray's.
+// pixels of the tile. first_of_packet: the first ray's number. ray_of_packet: the number of ray k minus the number of
+// the first ray.
 #define PACKET_ROW 4u
 FN u32 first_of_packet(u32 id) {
     const u32 within = id % (TILE * TILE) / PACKET;

@@ -56,7 +56,7 @@ FN packet_vec3 seen_normals(const packet* p, Geometry g, u32 hit_mask, double8 t
     return n;
 }
 
-// Stores a channel's values. `channel`: the first pixel's position; the second row is `line` further.
+// Stores a channel's values. `channel`: the first pixel's position; the second row's is `line` floats further.
 FN void put_channel(__global float* channel, u32 line, u32 active_mask, float8 values) {
     if (active_mask == 0xff) {
         vstore4(values.lo, 0, channel);
@@ -142,8 +142,8 @@ FN packet_view view_of(const packet* p, __global const Frame* f, Geometry g, app
     return view;
 }
 
-// Stores the pixels of the active rays; the rays of the hit mask see something. Not inlined: measured
-// (docs/experiments.md).
+// Stores the pixels of the active rays; the rays of the hit mask see something. The function is not inlined, which is
+// faster (docs/experiments.md).
 NOINLINE_FN void put_pixels(const packet* p, __global const Frame* f, Geometry g, appearance_tables a,
                             __global float* picture, u32 active_mask, u32 hit_mask) {
     const size_t size = channel_size(f);

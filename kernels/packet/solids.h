@@ -2,7 +2,7 @@
 // solids are intersected with all rays at once.
 //
 // A mask is a word whose bit k stands for ray k: the active mask for the rays that take part, the overflow mask for the
-// rays whose sweep has no room for another segment.
+// rays whose sweep has no free slot for another segment.
 #ifndef CSGRT_PACKET_SOLIDS_H
 #define CSGRT_PACKET_SOLIDS_H
 
@@ -10,13 +10,13 @@
 #include "packet.h"
 
 // The meaning of a ray's parameter t: claims up to `after` are not seen, boundaries within `tolerance` are one event,
-// and the list of nodes has the distance unit x t - offset for t.
+// and unit x t - offset is the distance in the list of nodes.
 typedef struct {
     real after, tolerance;
     wide unit, per_unit, offset;  // per_unit: 1 / unit
 } sweep_units;
 
-// The rays of a packet on their way through the scene.
+// The state of a packet's rays during the search for their first hits.
 typedef struct {
     packet_ray3 rays;
     packet_lanes lanes;

@@ -10,7 +10,7 @@
 #define CSGRT_SHARED_BASE_H
 
 #ifdef __OPENCL_VERSION__
-#ifdef CSGRT_CONTRACT  // a test of what contraction costs: results then differ between devices
+#ifdef CSGRT_CONTRACT  // to measure the effect of contraction: results then differ between devices
 #pragma OPENCL FP_CONTRACT ON
 #else
 #pragma OPENCL FP_CONTRACT OFF
@@ -55,7 +55,7 @@ typedef uint u32;
 #endif
 // A function for large and rare work. Inlined, it would take a GPU's registers from all other code.
 #define NOINLINE_FN FN __attribute__((noinline))
-// A function into which all functions that it calls are inlined, where this pays. A device's compiler inlines in any
+// A function into which all functions that it calls are inlined, where this pays. A device's compiler does this in any
 // case.
 #define WHOLE_FN FN
 #define REAL_INFINITY ((real)INFINITY)

@@ -243,7 +243,7 @@ typedef struct {
     u32 unbounded_count, node_count, light_count;
     u32 every_partition;   // 0: only the first hits are wanted
     u32 channels;          // of the picture: CHANNEL_x bits
-    ScreenBounds screen;   // the picture's pixels that can show anything; no other pixel has a ray
+    ScreenBounds screen;   // the picture's pixels that can show anything; rays are traced only for them
     u32 rows;              // of the batch's picture if it is row-major; 0: the picture has a float a ray, in the rays'
                            // order
     u32 rank_ends[RANKS];  // the number after the last region of each rank
@@ -281,8 +281,7 @@ typedef struct {
 #define LISTED_NODES 32u  // entries of a tile
 #define PACKET_NODES 16u  // entries of a packet of listed rays, which makes its own list (list_hits.cl)
 
-// In place of a region, for a first hit of a list that is not known: the ray has more segments at a time than a sweep
-// holds.
+// The region of a list's first hit if it is unknown: the ray has more segments at a time than a sweep holds.
 #define HIT_UNKNOWN 0xffffffffu
 
 // The counts of a ray, which kernel 1 makes. After the scan they are the sums over the batch's earlier rays.
@@ -315,7 +314,7 @@ typedef struct {
 // most have fewer rays in each warp. ASSUMED_WARP is the size of NVIDIA's warps; on a device of another size the
 // picture is the same.
 #define PARTS 4u
-#define PART_SHIFT 26u    // tiles have smaller numbers: their 64 rays have numbers of 32 bits
+#define PART_SHIFT 26u    // numbers of tiles have 26 bits, since numbers of their 64 rays have 32
 #define PARTED_CLASS 44u  // costs from 192 on (class_of in tile_list.cl)
 #define ASSUMED_WARP 32u
 
@@ -333,7 +332,8 @@ typedef struct {
 #define UNCOUNTED COUNT_MAX       // `count` before the segments are counted
 #define IN_SOME_FACE 0x80000000u  // set in `count`: the ray may run in a face of the solid (2_rays_in_faces.cl)
 
-// A boundary of a segment. Kernel 2 stores two for each segment, in then out, and a ray's segments by ascending solid.
+// A boundary of a segment. Kernel 2 stores two boundaries for each segment, in then out. A ray's segments are sorted by
+// solid.
 typedef struct {
     real t;
     u32 solid;
@@ -414,7 +414,7 @@ typedef struct {
     u32 ray, node;
 } OverlapRecord;
 
-// The values of one pixel. Frame.channels says which of them the host gets.
+// The values of one pixel. Frame.channels selects the values that the host gets.
 typedef struct {
     float rgba[4];
     float z;

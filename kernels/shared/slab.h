@@ -23,8 +23,8 @@ typedef struct {
 #define SLAB_REACH BY_PRECISION(1.001, 1.0000001, 1.0000001)
 #define SLAB_SLACK BY_PRECISION(0x1p-10, 0x1p-20, 0x1p-20)  // covers the rounding of t_min to float
 
-// The largest inverse: so large that a ray which runs along a slab never leaves it within the sphere. Infinity times 0
-// would be a NaN.
+// The largest inverse: so large that a ray parallel to a slab never leaves this slab within the sphere. Infinity times
+// 0 would be a NaN.
 #define MOST_INVERSE 1e30f
 FN single inverse(single x) {
     const single i = SINGLE(1) / x;
@@ -86,7 +86,7 @@ FN single_lane_mask box_is_hit_before(slab_ray s, BvhNode node, single end) {
     return in <= out && in <= end;
 }
 
-// Returns where the ray enters the box; BOX_MISSED: it does not.
+// Returns where the ray enters the box, or BOX_MISSED.
 FN single box_entry(slab_ray s, BvhNode node) {
     single out;
     const single in = box_passage(s, node, &out);

@@ -46,7 +46,7 @@ FN beam make_beam(GLOBAL const Frame* f, u32 tile) {
     return b;
 }
 
-// The list of the tile that holds a picture's ray.
+// The list of nodes of the tile with ray `number`.
 FN GLOBAL const TileNode* list_of(GLOBAL const Frame* f, GLOBAL const TileNode* lists, u32 number) {
     return lists + (size_t)((number - f->first_ray) / (TILE * TILE)) * LISTED_NODES;
 }

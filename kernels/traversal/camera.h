@@ -32,8 +32,8 @@ FN size_t place_of(GLOBAL const Frame* f, pixel_position at, u32 id) {
 }
 FN size_t channel_size(GLOBAL const Frame* f) { return f->rows ? (size_t)f->rows * width_of(f->screen) : f->ray_count; }
 
-// Marks the ray's tile, for the host, as a tile that shows something. Rays may do so at the same time: all store the
-// same value.
+// Marks the ray's tile, for the host, as a tile that shows something. Several rays may store the mark at once: all
+// store the same value.
 FN void mark_shown(GLOBAL const Frame* f, GLOBAL BatchReport* report, u32 number) {
     if (f->rows) ((GLOBAL unsigned char*)(report + 1))[(number - f->first_ray) / (TILE * TILE)] = 1;
 }

@@ -105,7 +105,7 @@ CompiledScene compile(const Scene& scene, const std::vector<std::string>& object
     std::vector<Warning> warnings = scene.warnings;
     Validated validated = validate(scene, names, objects, options.skip_unsupported, warnings, options.max_instances);
     if (!validated.findings.empty()) throw Error(Status::scene, std::move(validated.findings));
-    if (roots.empty()) roots = names.top_objects();  // all objects were in cycles, which are cut now
+    if (roots.empty()) roots = names.top_objects();  // now cycles are cut; before, all objects may have been in cycles
 
     const auto flattened = [&] {
         return flatten(scene, names, validated.instances, roots, options.air, options.max_instances);

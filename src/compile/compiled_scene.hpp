@@ -39,7 +39,7 @@ struct RegionLight {
 
 // The steps of compilation make the structs below, each from the scene and the results of earlier steps. Numbers of
 // solids: the unbounded solids come first, then the others in the order of the hierarchy's leaves (some solids may be
-// in no leaf: see Clipped). Models that differ in appearance alone share the rest.
+// in no leaf: see Clipped). Models that differ only in appearance share all other structs.
 
 /// The positions of solids.
 struct Space {

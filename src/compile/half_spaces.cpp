@@ -67,7 +67,7 @@ public:
             } else {
                 enter(task.node, task.cuts);
             }
-            // Half-spaces that cut nearly all solids would be written very often.
+            // A half-space that cuts nearly all solids would be written too often, so such a tree is left as it is.
             if (std::max(nodes_->size(), cuts_.size()) > 4 * tree.nodes.size() + 64) return tree;
         }
         return result;

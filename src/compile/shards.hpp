@@ -41,7 +41,7 @@ public:
         void add(const std::array<Dimension, n>& at) {
             of_.push_back(shard_of(at));
         }
-        /// Looks the last item up at another position, too.
+        /// Looks up the item that was added last at another position, too.
         template <std::size_t n>
         void look_also(const std::array<Dimension, n>& at) {
             joined_.emplace_back(of_.back(), shard_of(at));

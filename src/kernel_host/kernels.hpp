@@ -1,4 +1,4 @@
-// Kernels: headers of kernels/, compiled for the host in double: the same source, the same bits.
+// Kernels: shared headers of kernels/, compiled for the host in double: the same source, the same bits.
 #pragma once
 
 #include <cstddef>

@@ -1,7 +1,7 @@
 // Native device: this machine's processors, used through OpenCL's functions like any other device, with kernels that
 // are compiled together with csgrt (kernels.hpp). It needs no driver, loader or compiler on the user's machine.
 //
-// A command is done when the call that queues it returns, in any queue. Events only have the command's times. The
+// A command is done when the call that queues it returns, in any queue. An event has only the times of its command. The
 // driver implements the part of OpenCL that csgrt uses: one dimension, buffers, programs of double precision with the
 // default quartic. The source of such a program is its name in kernels.hpp, and it takes no options.
 #pragma once

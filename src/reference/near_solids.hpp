@@ -1,4 +1,4 @@
-// Near solids: the solids that the reference tries on a ray.
+// Near solids: the solids with which the reference intersects a ray.
 #pragma once
 
 #include <algorithm>

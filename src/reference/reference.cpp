@@ -134,7 +134,7 @@ void Reference::find_claimants(const WovenPartition& partition, std::uint32_t mi
     std::erase_if(claimants, [&](std::uint32_t region) { return rank_of(scene_.region_info[region]) != rank; });
 }
 
-// The side with the first claimants, in their order, decides the partition and its overlap.
+// The side whose claimants have the least numbers decides the partition and its overlap.
 void Reference::find_beside(const WovenPartition& partition, std::uint32_t beyond, RayAnswer& answer) const {
     auto &claimants = answer.claimants, &here = answer.beside;
     claimants.clear();

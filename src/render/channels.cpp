@@ -18,7 +18,8 @@ void Channels::allocate(std::size_t count, std::size_t size) {
     const std::size_t bytes = count * size_ * sizeof(float);
     values_.reset(static_cast<float*>(::operator new(bytes, alignment)));
 #ifdef __linux__
-    // Large pages: in small pages it takes half a second to get a gigabyte, and a fifth of a second to give it back.
+    // Large pages for large memory: with small pages it takes half a second to get a gigabyte, and a fifth of a second
+    // to give it back.
     constexpr std::size_t page = 4096, many = 1 << 22;
     void* begin = values_.get();
     std::size_t room = bytes;

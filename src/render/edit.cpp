@@ -190,7 +190,8 @@ void Edit::Impl::check_values() const {
     if (!findings.empty()) throw Error(Status::scene, findings.take());
 }
 
-/// Whether only tables change. Not if a region begins or ceases to emit light, since it may then get another number.
+/// Whether only tables change. They do not suffice if a region begins or ceases to emit light, since its number may
+/// change.
 bool Edit::Impl::changes_tables_alone(const AppearanceTable& table) const {
     if (scene) return false;
     const auto is_finish = [&](std::uint32_t i) { return looks[i].finish.has_value(); };

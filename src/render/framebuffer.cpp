@@ -15,7 +15,7 @@ namespace csgrt {
 Framebuffer::Framebuffer() = default;
 
 Framebuffer::~Framebuffer() {
-    // Memory that a GPU's driver knows, and cannot forget after exit(), is never freed.
+    // Memory that is registered with a GPU's driver cannot be unregistered after exit(), so it is never freed.
     if (!DriverCall::of_destructor(registered_ != nullptr).has_begun())
         static_cast<void>(new (std::nothrow) Image(std::move(image_)));
 }

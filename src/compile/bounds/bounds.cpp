@@ -71,7 +71,7 @@ Box Tight::operator()(const Cline&) const { throw std::logic_error("a cline is b
 
 namespace {
 
-/// Does BRL-CAD take the cone for a right elliptical cylinder, with an exact box? These are its tolerances.
+/// Does BRL-CAD treat the cone as a right elliptical cylinder, which gets an exact box? The tolerances are BRL-CAD's.
 bool is_right_cylinder(const Tgc& s, const Matrix& m) {
     constexpr long double length_tolerance = 1e-8L, dot_tolerance = 0.001L;
     const Wide h = transform_direction(m, wide(s.h)), a = transform_direction(m, wide(s.a)),
@@ -163,7 +163,7 @@ SolidBoxes solid_boxes(const Shape& shape, const Matrix& matrix, const std::vect
 
 namespace {
 
-/// Calls with the box of each node's subtree, in the order of the nodes.
+/// Calls `call` with the box of each node's subtree, in the order of the nodes.
 template <class Call>
 void for_each_subtree(const FlatTree& tree, const std::vector<Box>& boxes, const Call& call) {
     // The boxes of a set and of its complement. With the two boxes, the result does not depend on how a set's tree is

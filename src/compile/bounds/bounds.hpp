@@ -31,8 +31,8 @@ inline Box brlcad_box(const Shape& shape, const Matrix& matrix, const std::vecto
     return solid_boxes(shape, matrix, cuts).brlcad;
 }
 
-/// The box of a tree by BRL-CAD's rules: union and xor have the box around both, intersection the common part,
-/// difference the left side's box. `boxes` has one a solid. A complement has the whole space.
+/// The box of a tree by BRL-CAD's rules: a union or xor has the box around the two operands, an intersection their
+/// common part, a difference the left operand's box, and a complement the whole space. `boxes`: one a solid.
 Box tree_box(const FlatTree& tree, const std::vector<Box>& boxes);
 /// The boxes of the subtrees of all nodes, by the same rules.
 std::vector<Box> subtree_boxes(const FlatTree& tree, const std::vector<Box>& boxes);

@@ -20,9 +20,9 @@ namespace {
 
 // The number of planes up to which n^3 is less than the cost of linear programming.
 constexpr std::size_t few = 16;
-// A limit relative to distances: an edge that is no farther outside a plane counts as on the plane.
+// A limit relative to distances: an edge that is outside a plane by less than this counts as on the plane.
 constexpr double on_edge = 1e-12;
-// A limit relative to the cube: a point that is no farther outside a plane counts as on the plane.
+// A limit relative to the cube: a point that is outside a plane by less than this counts as on the plane.
 constexpr long double on_plane = 1e-15L;
 // The angle (radians) below which two planes count as parallel: their intersection is noise, and is left out, so the
 // box is larger.

@@ -49,7 +49,7 @@ private:
     /// A range of many boxes, and the result of its task.
     struct Task {
         Range range;
-        std::uint32_t place;  ///< index of the first node; every task has the memory that it may need at most
+        std::uint32_t place;  ///< index of the first node; each task has memory for all nodes that it may make
         std::uint32_t left = none, right = none;  ///< tasks; none: this task has built the whole range
         std::uint32_t nodes = 0;  ///< built by this task; their `skip` counts from the task's first node
     };

@@ -11,7 +11,7 @@ namespace csgrt {
 /// The hierarchy of a scene, and the numbers that its solids get from it.
 struct NumberedSpace {
     Space space;
-    std::vector<std::uint32_t> order;  ///< the instances as solids are numbered
+    std::vector<std::uint32_t> order;  ///< instances, in the order of the solids' numbers
 };
 
 /// Numbers the solids and builds their hierarchy. `boxes`: one an instance, infinite for unbounded solids; the sphere

@@ -116,7 +116,7 @@ struct TermsPart {
     FlatPart flat;
 };
 
-/// Prefetches the memory that the terms after number `i` will read first, most of the time.
+/// Prefetches the memory that flattening the terms after number `i` will usually read first.
 void prefetch_ahead(const Source& source, std::span<const Term> terms, std::size_t i) {
     const Scene& scene = source.scene;
     const auto object_at = [&](std::size_t term) {

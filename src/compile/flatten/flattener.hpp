@@ -61,8 +61,8 @@ private:
     const Source& source_;
     FlatPart& result_;
     FlatTree* tree_ = nullptr;
-    // Operands: the nodes of each begin at its entry in `firsts_` and end where the next operand's begin. A constant
-    // has no nodes.
+    // Operands: the nodes of an operand begin at its entry in `firsts_` and end where the next operand's nodes begin. A
+    // constant has no nodes.
     std::vector<std::size_t> firsts_;
     std::vector<Value> values_, outsides_;
     Walk<Level> walk_;

@@ -25,7 +25,7 @@ public:
             all.push_back(instance);
             return next;
         }
-        // The object has several instances: if it is not the first, it is looked up among the others.
+        // The object has several instances: an instance that is not the first is looked up among the others.
         if (equal(all[first], instance)) return first;
         const std::uint64_t hash = hash_of(instance);
         const std::uint32_t last = cells_.find(hash);

@@ -72,7 +72,7 @@ public:
         Operator op = Operator::leaf;
         std::uint32_t left = 0, right = 0;
     };
-    /// Calls with the topmost node of each term, in BRL-CAD's order of regions.
+    /// Calls `call` with the topmost node of each term, in BRL-CAD's order of regions.
     void for_each_term(const std::function<void(std::uint32_t)>& call);
     /// Whether the expression is true even where no solid is.
     bool is_everything() const { return root_.value == Value::everything; }

@@ -15,8 +15,8 @@ struct PackedRegions {
     std::vector<kernel::SolidRecord> solids;  ///< see list_terms
 };
 
-/// Packs the regions. `order`: the instances as solids are numbered; `brlcad_boxes`: one an instance; `trees`: the
-/// trees from which terms are made, see Clipped.
+/// Packs the regions. `order`: the instances in the order of the solids' numbers; `brlcad_boxes`: one an instance;
+/// `trees`: the trees from which terms are made, see Clipped.
 PackedRegions pack_regions(const FlatScene& flat, const std::vector<FlatTree>& trees,
                            const std::vector<std::uint32_t>& order, const std::vector<Box>& brlcad_boxes);
 

@@ -136,7 +136,7 @@ void add_alone(const std::vector<std::uint32_t>& trees, const Term& term, std::s
     leaves.clear();
     is_true.assign(term.end - term.first, false);
     is_true[0] = true;
-    for (std::uint32_t node = term.first; node < term.end; ++node) {  // operators come before their operands
+    for (std::uint32_t node = term.first; node < term.end; ++node) {  // operators are stored before their operands
         const std::uint32_t op = trees[node] >> TREE_SHIFT, right = trees[node] & TREE_MASK;
         const bool is = is_true[node - term.first];
         if (op == OP_LEAF) {

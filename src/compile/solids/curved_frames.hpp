@@ -51,7 +51,7 @@ inline EtoFrame frame_of(const Eto& s) {
             up / length};
 }
 
-/// The field of a point at the square of a distance from it.
+/// The field of a point. `distance2`: the square of the distance from this point.
 inline long double field(const Metaball& s, const Metaball::Point& p, long double distance2) {
     const long double s2 = static_cast<long double>(p.strength) * p.strength;
     switch (s.method) {

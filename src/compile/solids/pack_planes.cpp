@@ -75,7 +75,7 @@ std::optional<double> flat_thickness(std::span<const PackedPlane> faces) {
     return {};
 }
 
-/// Warns of the first few such solids, and says how many more there are.
+/// Warns of the first few flat solids, and says how many more there are.
 void note_flat_solids(const std::vector<std::vector<FlatSolid>>& flat_solids, const Box& common, const Shapes& shapes,
                       std::vector<Warning>& warnings) {
     const auto warn = [&](std::string object, std::string reason) {
@@ -87,7 +87,7 @@ void note_flat_solids(const std::vector<std::vector<FlatSolid>>& flat_solids, co
     std::size_t count = 0;
     for (const std::vector<FlatSolid>& some : flat_solids) {
         for (const auto& [solid, thickness] : some) {
-            // A turn of no angle has a note of its own.
+            // note_on() warns of a revolve that turns by no angle.
             if (shapes.solids[solid].type == SOLID_REVOLVE && thickness == 0) continue;
             if (++count > shown) continue;
             const Box& box = is_finite(shapes.solid_boxes[solid]) ? shapes.solid_boxes[solid] : common;

@@ -23,7 +23,7 @@ struct Packer {
     Shapes&
         scene;  ///< only solids of no fixed size (meshes, sketches, cells) write to it: see IsSmall in pack_scene.cpp
     SharedParts& shared;
-    std::vector<double>& reals;  ///< the solid's, from first_real on; for solids without a fixed size the scene's
+    std::vector<double>& reals;  ///< of this solid, from first_real on; for solids without a fixed size of the scene
     std::vector<Plane>& planes;  ///< the faces, for the search in the table of planes
     kernel::SolidRecord record{};
     WideMatrix axes_in_world{};        ///< of the last frame

@@ -92,8 +92,8 @@ PlaneTable::Key PlaneTable::key_of(const Plane& plane) const {
 }
 
 void PlaneTable::add_to(Shards::Chunk& chunk, const Key& key, const Box& box, std::size_t planes) const {
-    // The cells are small, since many normals are the same; yet so large that few planes lie near a border and most
-    // shards stay apart.
+    // The cells are small, since many normals are equal; but they are so large that few planes lie near a border, so
+    // that most shards are not joined.
     const double part_of_radius =
         std::max(1.0 / 8192, 4 * offset_reach_ / radius_ * static_cast<double>(planes) / (Shards::count / 16));
     // It is enough if one of two equal planes is looked up in the cell of the other. So planes perpendicular to an

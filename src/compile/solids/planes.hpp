@@ -15,7 +15,7 @@
 namespace csgrt {
 
 /// The table finds the record of a plane among the records of the scene, within the rounding of the model's numbers. A
-/// plane and its reverse share one record; a reference tells by its flip which of the two it means.
+/// plane and its reverse share one record; the flip of a reference tells which of the two is meant.
 class PlaneTable {
 public:
     /// The limit of distance: two planes are one if over the boxes of their two solids they lie no farther apart than

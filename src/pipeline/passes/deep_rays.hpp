@@ -39,7 +39,7 @@ public:
     void release();
 
     std::uint32_t rays_at_a_time;          ///< at most
-    std::uint32_t ends_a_launch = 16'384;  ///< boundaries of a ray; any device takes a fraction of a second
+    std::uint32_t ends_a_launch = 16'384;  ///< boundaries of a ray: on any device a fraction of a second
 
 private:
     /// The scene's status tree on the device.
@@ -47,7 +47,7 @@ private:
         Tree(Device& device, const StatusTree& tree, std::uint32_t regions);
         Buffer links, outside, first_leaves, leaves;
         std::uint32_t cluster_words,
-            words;  ///< words of a ray's status: of the clusters' functions; of all, with the set of regions
+            words;  ///< words of a ray's status: only the clusters' functions; and with the set of regions
     };
     /// Rays that are swept side by side.
     struct Group {

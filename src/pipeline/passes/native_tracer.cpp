@@ -196,7 +196,7 @@ void NativeTracer::trace(const kernel::Frame& frame, const RayList& rays, std::u
         const std::span records = std::span(memory).first(std::min(size, end - first));
         rays.fill(first, records);
         // First hits are searched in the order of the solids' boxes, but a plate that a ray grazes may begin before its
-        // box. Packets do not help for points, which are anywhere.
+        // box. Packets do not help for points, which may lie far from each other.
         const bool by_hits =
             frame.first_row && !frame.whole_lines && records.size() > 1 && records[0].t_near < records[0].t_far;
         if (!(by_hits && hit(frame, records, receiver.fields(), stop, rows, counts)) &&

@@ -105,7 +105,7 @@ kernel::RayCount PartitionPass::read_total(const Buffer& counts, std::uint32_t r
 std::optional<PartitionSizes> PartitionPass::trace_counted(const Input& input, TimedKernels& timed) {
     if (auto sizes = try_counted(input, timed)) return sizes;
     for (const auto& [time, kernel] : timed)
-        wait_for(kernel);       // throws if the reason is a fault and not missing memory
+        wait_for(kernel);       // throws if the reason was a fault; missing memory throws nothing
     memory_.release_counted();  // a smaller batch needs the memory
     deep_rays_.release();
     return {};
@@ -113,7 +113,7 @@ std::optional<PartitionSizes> PartitionPass::trace_counted(const Input& input, T
 
 std::optional<PartitionSizes> PartitionPass::try_counted(const Input& input, TimedKernels& timed) {
     PartitionSizes sizes;
-    deep_rays_.release();  // its memory is needed for all rays first
+    deep_rays_.release();  // gives its memory to the buffers of all rays
     if (!memory_.reserve_rays(input.rays)) return {};
     place_candidates(input, timed);
     sizes.candidates = read_total(memory_.candidate_places(), input.rays, timed).segments;

@@ -103,7 +103,8 @@ private:
     void sum_blocks(const Buffer& entries, std::uint32_t size, Buffer& sums, TimedKernels& timed);
     void scan(const Buffer& counts, std::uint32_t rays, TimedKernels& timed);
     kernel::RayCount read_total(const Buffer& counts, std::uint32_t rays, const TimedKernels& timed);
-    /// Whether the rays are traced in packets. Pixels that are listed one by one may lie anywhere, so they are not.
+    /// Whether the rays are traced in packets. Pixels that are listed one by one are not, since they may lie far from
+    /// each other.
     bool in_packets(const Input& input) const { return input.work != Work::pixels && packet_candidates_; }
     RowPass::Input rows_of(const Input& input, std::uint64_t first) {
         return {input.batch.frame,

@@ -40,8 +40,8 @@ public:
     /// Whether overlaps are wanted and exist. Then their claimants have to be found by a kernel (the next two
     /// functions) or, if there are deep rays, by the host (append_overlaps).
     bool has_overlaps() const { return fields_.overlaps && total_.words > 0; }
-    /// Counts the claims of each overlap; the caller scans the counts, overlaps() in number. Returns null if there is
-    /// not enough memory.
+    /// Counts the claims of each overlap; the caller scans the overlaps() counts. Returns null if there is not enough
+    /// memory.
     const Buffer* count_claimants(const Input& input, const SceneTables& scene, TimedKernels& timed);
     /// Lists the claimants. `claims`: the sum of the counts. Returns false if there is not enough memory.
     bool list_claimants(const Input& input, std::uint32_t claims, const SceneTables& scene, TimedKernels& timed);

@@ -28,7 +28,7 @@ public:
 private:
     void* data_;
     std::size_t bytes_;
-    std::map<cl_context, HostRegistration> registered_;  ///< each keeps its context, so addresses stay unique
+    std::map<cl_context, HostRegistration> registered_;  ///< each keeps its context, so keys stay unique
 };
 
 }  // namespace csgrt

@@ -13,8 +13,8 @@ ReadbackRing::ReadbackRing(Device& device) : device_(device), copies_(device) {
     for (std::size_t i = 0; i < depth; ++i) pictures_.push_back({Buffer(device, "pictures of batches"), {}});
 }
 
-// A picture whose pixels are copied already has the best rank, so that frames of one batch use a single picture. Else
-// the picture that was collected first is chosen.
+// A picture whose pixels have been copied is chosen first, so that frames of one batch use a single picture. Else the
+// picture that was collected first is chosen.
 ReadbackRing::DevicePicture* ReadbackRing::acquire(std::size_t bytes) {
     const auto rank = [](const DevicePicture& picture) {
         const bool is_copied =

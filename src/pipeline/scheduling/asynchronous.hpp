@@ -52,7 +52,7 @@ private:
 
         Stage stage = Stage::free;
         RayBatch rays;
-        kernel::Frame frame{};  ///< of all rays of the batch; after culling, of the rays in tiles that may see
+        kernel::Frame frame{};  ///< of the batch's rays; after culling, only of the tiles that may see the scene
         BatchBuffers buffers;
         ReadbackRing::DevicePicture* picture = nullptr;
         QueuedUpload frame_upload;

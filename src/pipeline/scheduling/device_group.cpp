@@ -83,7 +83,7 @@ void DeviceGroup::share(std::uint64_t rays, std::uint64_t row, bool every_partit
         counts += own;
     };
     {
-        JoinedThreads others;  // these threads wait for devices, so they are no threads of the pool
+        JoinedThreads others;  // these threads mostly wait for devices, so the pool's threads are not used
         while (others.size() + 1 < devices && others.add(draw)) {
         }
         draw();

@@ -39,8 +39,8 @@ public:
     /// memory is `pixels` floats for each channel, one channel after the other. The memory must outlive the result; the
     /// group need not.
     std::shared_ptr<RegisteredMemory> register_memory(std::span<const ChannelMemory> channels, std::size_t pixels);
-    /// Draws a frame, as Pipeline::render does. Also throws Error (interrupted), if `watch`, which may be null, is
-    /// interrupted.
+    /// Draws a frame, as Pipeline::render does. Also throws Error (interrupted), if `watch`, which may be null, ends
+    /// the work.
     void render(const PreparedFrame& prepared, const RenderTarget& target, Watch* watch, PipelineCounts& counts);
     void trace_list(const kernel::Frame& frame, const RayList& rays, RowReceiver& receiver, Watch* watch,
                     PipelineCounts& counts);
@@ -59,7 +59,8 @@ private:
     void start_call();
     void drop_claims();
 
-    /// The device memory that a driver holds for registered memory: as many bytes, as long as the memory is registered.
+    /// The device memory that a driver holds for registered memory: the same number of bytes, until the registration
+    /// ends.
     struct Claim {
         std::weak_ptr<const RegisteredMemory> registered;
         Device* device;

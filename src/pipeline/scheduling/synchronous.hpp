@@ -1,6 +1,6 @@
 // Synchronous schedule: one batch at a time. The host reads which tiles of the batch see anything, runs kernels for
 // these tiles alone, and reads their pixels. Processors, which share the host's memory, draw pictures by this schedule.
-// All devices trace single pixels and lists of rays by it.
+// All devices use it for single pixels and for lists of rays.
 #pragma once
 
 #include <algorithm>

@@ -82,7 +82,7 @@ struct Edges {
     std::vector<Edge> all;
     std::vector<Corners> of_face;  ///< edge k begins at corner k
     std::size_t open = 0, crowded = 0;
-    bool winds_one_way = true;  ///< equally many faces run through each edge that is not open in either direction
+    bool winds_one_way = true;  ///< through each edge that is not open, equally many faces run in either direction
 
     explicit Edges(const std::vector<Corners>& faces) {
         CellTable table;
@@ -215,7 +215,7 @@ bool even_turn(const Corners& a, const Corners& b) {
 
 bool has_two_equal(const Corners& face) { return face[0] == face[1] || face[1] == face[2] || face[2] == face[0]; }
 
-/// Takes each face once, without those with two equal points.
+/// Takes each face once, except faces with two equal points.
 void MeshRepair::take_faces() {
     FaceNumbers number_of;
     faces_.reserve(bot_.faces.size());

@@ -93,8 +93,8 @@ public:
     explicit Volume(const Vol& vol)
         : vol_(vol), size_{std::int64_t{vol.width}, std::int64_t{vol.depth}, std::int64_t{vol.height}} {}
 
-    /// Calls once for every face between a solid cell and an empty one: with the cell on the face's far side, and the
-    /// axis across the face.
+    /// Calls `call` once for every face between a solid cell and an empty cell, with the cell on the face's far side
+    /// and the axis across the face.
     template <class Call>
     void for_each_face(const Call& call) const {
         for (std::int64_t z = 0; z <= size_[2]; ++z)

@@ -108,7 +108,8 @@ private:
     std::size_t start_ = 0;
 };
 
-/// Joins a hole to the outline by a bridge, an edge there and back, from its rightmost corner to a corner that it sees.
+/// Joins a hole to the outline by a bridge: an edge there and back, from the hole's rightmost corner to a visible
+/// corner of the outline.
 void Polygon::bridge(std::size_t hole) {
     const Point h = at(hole);
     // The nearest edge to the right, and its end that lies farther right.
