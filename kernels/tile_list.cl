@@ -23,7 +23,7 @@ __kernel void count_tiles(__global const unsigned char* costs, u32 count, __glob
 // The number of entries in the list for a tile of the class.
 static u32 parts_of(u32 class_number, u32 in_parts) { return in_parts && class_number >= PARTED_CLASS ? PARTS : 1u; }
 
-// Are the most expensive tiles listed in parts? The list has room for one entry a tile. The parts use the entries of
+// Are the most expensive tiles listed in parts? The list has memory for one entry a tile. The parts use the entries of
 // tiles that see nothing.
 static u32 are_in_parts(__local const u32* tiles, u32 most_in_parts) {
     u32 k, in_parts = 0;

@@ -126,7 +126,7 @@ typedef struct {
     u32 more;  // 1: there may be leaves after the kept leaves
 } leaf_cursor;
 
-// Keeps a leaf if it is among the first CURSOR_LEAVES leaves so far; 0: neither this leaf nor a greater leaf is.
+// Keeps a leaf if it is among the first CURSOR_LEAVES leaves so far; 0: this leaf is not, nor is any greater leaf.
 FN u32 keep(leaf_cursor* w, u32 node) {
     u32 k = w->count;
     if (k == CURSOR_LEAVES) {

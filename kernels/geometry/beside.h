@@ -21,8 +21,8 @@
 #include "quadratic.h"
 #include "touch.h"
 
-// Distances in units of the rounding of one number. IN_FACE: a corner that is no farther from the ray's plane counts as
-// in it. ASIDE: the distance by which the ray is moved.
+// Distances in units of the rounding of one number. IN_FACE: a face's corner that is no farther off a plane through the
+// ray counts as in this plane. ASIDE: the distance by which the ray is moved.
 #define IN_FACE REAL(1)
 #define ASIDE REAL(8)
 #define STEEPEST REAL(0x1p60)

@@ -230,7 +230,7 @@ FN vec3 extrude_normal(Geometry g, SolidRecord solid, ray3 r, real t, u32 surfac
         GLOBAL const u32* curve = s.curves + 2 * (wall - EXTRUDE_ENDS - s.line_count);
         n = curved_wall_normal(g.reals + solid.first_real, g.reals + curve[0], curve[1], r, t);
     }
-    // A curve does not know its inner side. The ray's direction decides.
+    // The inner side of a curve is not stored, so the ray's direction decides.
     return (dot3(n, r.d) > 0) == (leaves != 0) ? n : scale(n, REAL(-1));
 }
 

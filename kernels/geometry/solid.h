@@ -1,5 +1,5 @@
-// Solid: the segments of any type of solid that has at most two, and the normal of any solid. This file and collect.h
-// know all types. A program holds only the types that its scene has (-DCSGRT_SOLIDS=<bits>): code that is left out
+// Solid: the segments of any type of solid that has at most two, and the normal of any solid. Only this file and
+// collect.h name all types. A program has only the types of its scene (-DCSGRT_SOLIDS=<bits>): code that is left out
 // costs no registers.
 #ifndef CSGRT_GEOMETRY_SOLID_H
 #define CSGRT_GEOMETRY_SOLID_H

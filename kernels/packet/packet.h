@@ -50,7 +50,7 @@ FN int no_lane(long8 x) { return !any(x); }
 #include "../shading/plastic.h"
 #include "end.h"
 
-// Do packets know this type of solid?
+// Is this type of solid intersected by packets?
 FN int takes_packets(SolidRecord solid) { return CLOSED_FORM_SOLIDS >> solid.type & 1u; }
 
 // The segments of a closed-form solid: for each ray one, none, or UNDECIDED. A ray that may only touch the solid is

@@ -41,7 +41,7 @@ typedef uint u32;
 #define FN static
 #endif
 // A function that is always inlined: its call would take longer than its work.
-#ifdef CSGRT_NO_INLINE  // for a simulator that does not know all instructions that inlining makes
+#ifdef CSGRT_NO_INLINE  // for a simulator that lacks some instructions that inlining produces
 #define INLINE_FN FN
 #else
 #define INLINE_FN FN inline __attribute__((always_inline))

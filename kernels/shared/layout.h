@@ -152,9 +152,10 @@ typedef struct {
 #define PLAIN_WORDS 16u     // words of a term; a larger term has a table of roles
 #define SCANNED_WORDS 256u  // words of a term; a larger term is walked from covered leaf to covered leaf
 
-// ---- Status trees: regions' trees for deep rays (boolean/status_tree.h) ---- Clusters are numbered in pairs, and the
-// parent of a pair has a greater number. Each pair has a word in `links`: 29 low bits are the parent, 3 high bits are
-// the operator that sets the parent's function. The pair of a region's root has REGION_LINK and the region.
+// ---- Status trees: regions' trees for deep rays (boolean/status_tree.h) ---- Clusters are numbered in pairs: pair i
+// is the clusters 2 i and 2 i + 1, and its parent is a cluster of an earlier pair. Each pair has a word in `links`: 29
+// low bits are the parent, 3 high bits are the operator that sets the parent's function. The pair of a region's root
+// has REGION_LINK and the region.
 #define RAKE_NONE 0u     // no operator: the parent is part of the same path
 #define RAKE_UNION 1u    // the parent is the union with the rest of the tree
 #define RAKE_COMMON 2u   // the intersection

@@ -62,8 +62,8 @@ kernel::ScreenBounds screen_bounds(const CompiledScene& scene, const kernel::Fra
     const kernel::ScreenBounds all{0, 0, f.width, f.height};
     if (scene.unbounded_count > 0) return all;
     if (scene.nodes.empty()) return {};
-    // The margin by which boxes grow in single precision (kernels/shared/slab.h), and for rounded coordinates. It is
-    // the same for every precision.
+    // The margin covers the growth of boxes in single precision (kernels/shared/slab.h) and the rounding of
+    // coordinates. It is the same for every precision.
     double to_center = 0, center = 0;
     for (int k = 0; k < 3; ++k) {
         to_center = std::hypot(to_center, f.eye[k] - f.center[k]);

@@ -175,7 +175,8 @@ void RegionForest::for_each_term(const std::function<void(std::uint32_t)>& call)
             push(node.left, subtract ? Pending::subtract_right : Pending::intersect_right, node.right, context);
             continue;
         }
-        // A term is complete when the pending operators are applied, or when another operand must be split first.
+        // Applies the pending operators. If the operand of an intersection is still to be split into terms, the term
+        // waits in a new task; else it is complete.
         while (context != none) {
             const Context c = contexts[context];
             context = c.outer;

@@ -136,8 +136,8 @@ private:
                 leaf.cluster << 2 | (kernel::raked(leaf.rake, 0) ^ kernel::raked(leaf.rake, 3));
     }
 
-    /// Computes the functions where no solid covers. The loop goes from the last pair to the first, because parents
-    /// have greater numbers.
+    /// Computes the functions where no solid covers. The loop goes from the last pair to the first, because a parent is
+    /// in an earlier pair.
     void find_outside() {
         auto& outside = result_.outside;
         outside.assign((2 * result_.links.size() + 15) / 16, 0);

@@ -21,8 +21,8 @@ public:
     }
 
     /// Is the cell cut from its lower left to its upper right corner? The adaptive cut is along the diagonal that bends
-    /// less, measured with the next corner beyond each of its ends. If the two diagonals bend alike, the cell is cut
-    /// along the other diagonal.
+    /// less, measured with the next corner beyond each of its ends. If the two diagonals bend alike, the cell is not
+    /// cut upward.
     bool is_cut_upward(std::int64_t x, std::int64_t y) const {
         switch (dsp_.cut) {
             case Dsp::Cut::lower_left:

@@ -122,8 +122,8 @@ void Polygon::bridge(std::size_t hole) {
         const Point p = at(c), q = at(next);
         if (p.y != q.y && std::min(p.y, q.y) <= h.y && h.y <= std::max(p.y, q.y)) {
             const long double x = p.x + (h.y - p.y) / (q.y - p.y) * (q.x - p.x);
-            // The outline runs counterclockwise: its inside is to the left of an edge that goes up. The edge's end may
-            // have several copies; the ray ends at the copy that opens towards the hole.
+            // The outline runs counterclockwise: its inside is to the left of an upward edge. The edge's end may have
+            // several copies; the ray ends at the copy that opens towards the hole.
             const std::size_t end = p.y == h.y ? c : q.y == h.y ? next : p.x > q.x ? c : next;
             const bool meets = at(end).y != h.y || opens_towards(end, h);
             if (x >= h.x && x < nearest && p.y < q.y && meets) {
