@@ -11,7 +11,7 @@ set(first_hits_files 0_cull_tiles.cl packet/first_hits_packet.h first_hits.cl li
 set(first_hits_prefetch_files ${first_hits_files})
 set(partitions_files 0_cull_tiles.cl 0_make_rays.cl 1_packet_candidates.cl 1_count_segments.cl 2_store_segments.cl
                      2_rays_in_faces.cl 3_weave.cl 4_evaluate.cl 3_deep_rays.cl 5_shade.cl 6_rows.cl)
-set(first_hits_options -DCSGRT_PRIVATE_ENDS -DCSGRT_FEW=64u)
+set(first_hits_options -DCSGRT_PRIVATE_BOUNDARIES -DCSGRT_FEW=64u)
 set(first_hits_prefetch_options ${first_hits_options} -DCSGRT_PREFETCH)
 set(partitions_options "")
 

@@ -37,7 +37,7 @@ static u32 deep_ray_of(__global const DeepRay* deep, u32 count, u32 block) {
 typedef struct {
     __global const Boundary* boundaries;  // of the whole ray
     __global PartitionNode* nodes;        // of the whole ray
-    u32 ends_count, first;
+    u32 boundary_count, first;
 } deep_block;
 
 static deep_block block_at(__global const DeepRay* deep, u32 count, u32 id, __global const RayCount* offsets,
@@ -47,12 +47,12 @@ static deep_block block_at(__global const DeepRay* deep, u32 count, u32 id, __gl
     deep_block b;
     b.boundaries = all_boundaries + 2 * (size_t)offset.segments;
     b.nodes = all_nodes + 2 * (size_t)offset.segments;
-    b.ends_count = 2 * (offsets[ray.ray + 1].segments - offset.segments);
+    b.boundary_count = 2 * (offsets[ray.ray + 1].segments - offset.segments);
     b.first = DEEP_BLOCK * (id - ray.block);
     return b;
 }
 
-static int ends_before(__global const Boundary* boundaries, u32 a, u32 b) {
+static int boundary_is_before(__global const Boundary* boundaries, u32 a, u32 b) {
     const real t_a = boundaries[a].t, t_b = boundaries[b].t;
     return t_a < t_b || (t_a == t_b && a < b);
 }
@@ -65,10 +65,10 @@ __kernel void sort_deep_blocks(__global const DeepRay* deep, u32 count, u32 bloc
     deep_block b;
     if (id >= blocks) return;
     b = block_at(deep, count, id, offsets, all_boundaries, all_nodes);
-    size = b.ends_count - b.first < DEEP_BLOCK ? b.ends_count - b.first : DEEP_BLOCK;
+    size = b.boundary_count - b.first < DEEP_BLOCK ? b.boundary_count - b.first : DEEP_BLOCK;
     for (k = 0; k < size; ++k) {
         u32 place = k;
-        for (; place > 0 && ends_before(b.boundaries, b.first + k, order[place - 1]); --place)
+        for (; place > 0 && boundary_is_before(b.boundaries, b.first + k, order[place - 1]); --place)
             order[place] = order[place - 1];
         order[place] = b.first + k;
     }
@@ -86,17 +86,17 @@ __kernel void merge_deep_runs(__global const DeepRay* deep, u32 count, u32 block
     if (id >= blocks) return;
     b = block_at(deep, count, id, offsets, all_boundaries, all_nodes);
     place = b.first;
-    last = place + DEEP_BLOCK < b.ends_count ? place + DEEP_BLOCK : b.ends_count;
+    last = place + DEEP_BLOCK < b.boundary_count ? place + DEEP_BLOCK : b.boundary_count;
     left = place - place % (2 * run);
-    left_end = right = left + run < b.ends_count ? left + run : b.ends_count;
-    right_end = right + run < b.ends_count ? right + run : b.ends_count;
+    left_end = right = left + run < b.boundary_count ? left + run : b.boundary_count;
+    right_end = right + run < b.boundary_count ? right + run : b.boundary_count;
     before = place - left;  // boundaries of both runs in the blocks before this one
     low = before > right_end - right ? before - (right_end - right) : 0;
     high = before < left_end - left ? before : left_end - left;
     while (low < high) {
         const u32 middle = (low + high) >> 1;
-        if (ends_before(b.boundaries, *in_order(b.nodes, field, left + middle),
-                        *in_order(b.nodes, field, right + before - middle - 1))) {
+        if (boundary_is_before(b.boundaries, *in_order(b.nodes, field, left + middle),
+                               *in_order(b.nodes, field, right + before - middle - 1))) {
             low = middle + 1;
         } else {
             high = middle;
@@ -107,7 +107,8 @@ __kernel void merge_deep_runs(__global const DeepRay* deep, u32 count, u32 block
     for (; place < last; ++place) {
         int takes_left = right == right_end;
         if (left < left_end && right < right_end)
-            takes_left = ends_before(b.boundaries, *in_order(b.nodes, field, left), *in_order(b.nodes, field, right));
+            takes_left =
+                boundary_is_before(b.boundaries, *in_order(b.nodes, field, left), *in_order(b.nodes, field, right));
         *in_order(b.nodes, to, place) = *in_order(b.nodes, field, takes_left ? left++ : right++);
     }
 }

@@ -14,8 +14,8 @@
 
 // A ray's segments, and the bits that say which of them cover the partition.
 typedef struct {
-    ENDS const Boundary* boundaries;
-    ENDS const u32* bits;
+    BOUNDARY_SPACE const Boundary* boundaries;
+    BOUNDARY_SPACE const u32* bits;
     u32 segments;
     u32 missed;  // missed_on() of a side: segments that miss this side do not cover
     u32 marked;  // 0: no segment has MISSED_... set
@@ -295,7 +295,7 @@ FN SolidFilter all_solids(void) {
 // `other` is not wanted. `changed`: the solids that began or ceased to cover at the last event. If no region claimed
 // before, only a term that has one of these solids can claim now. Several solids may start one term, as in a xor, and
 // each would find the same value: a term that was false just now is not evaluated again.
-FN claim find_claim(cover c, ENDS const u32* starting, const covered_solids* list, GLOBAL const u32* ranks,
+FN claim find_claim(cover c, BOUNDARY_SPACE const u32* starting, const covered_solids* list, GLOBAL const u32* ranks,
                     SolidFilter changed) {
     claim found;
     u32 word, words = words_of(c.segments), refuted = NONE;
@@ -341,8 +341,8 @@ FN u32 is_one_solid(const covered_solids* list) {
 // this side. Around an edge there are as many wedges as faces meet there, so solids that fill less than a quarter of
 // the turn may be on none of the sides. But if the ray touches one solid alone, it is not moved, and the solid covers
 // it.
-RARE_FN claim find_claim_of_sides(cover c, ENDS const u32* starting, covered_solids* list, GLOBAL const u32* ranks,
-                                  SolidFilter changed) {
+RARE_FN claim find_claim_of_sides(cover c, BOUNDARY_SPACE const u32* starting, covered_solids* list,
+                                  GLOBAL const u32* ranks, SolidFilter changed) {
     const u32 moved = c.beyond || !is_one_solid(list) ? 1u : 0u;
     claim found;
     u32 side;
@@ -360,7 +360,7 @@ RARE_FN claim find_claim_of_sides(cover c, ENDS const u32* starting, covered_sol
 }
 
 // The claim of the partition that the segments of c.bits cover. `list`: the solids of these segments.
-FN claim find_claim_beside(cover c, ENDS const u32* starting, covered_solids* list, GLOBAL const u32* ranks,
+FN claim find_claim_beside(cover c, BOUNDARY_SPACE const u32* starting, covered_solids* list, GLOBAL const u32* ranks,
                            SolidFilter changed) {
     c.missed = 0;
     if (list->missed || c.beyond) return find_claim_of_sides(c, starting, list, ranks, changed);

@@ -92,7 +92,8 @@ FN int take_solid(sweep* w, Geometry g, u32 index, ray3 r, real t_min) {
     int fits = 1;
 #if (CSGRT_SOLIDS) & MANY_SEGMENTS
     Boundary found[2 * SWEEP_SEGMENTS];
-    if ((MANY_SEGMENTS >> solid.type & 1u) && collect(g, solid, index, r, t_min, (ENDS Boundary*)0) > SWEEP_SEGMENTS)
+    if ((MANY_SEGMENTS >> solid.type & 1u) &&
+        collect(g, solid, index, r, t_min, (BOUNDARY_SPACE Boundary*)0) > SWEEP_SEGMENTS)
         return 0;
 #else
     Boundary found[4];

@@ -15,7 +15,8 @@
 #define PART_FN FN
 #endif
 
-FN void put_segment(ENDS Boundary* boundaries, u32 solid, real in, u32 in_surface, real out, u32 out_surface) {
+FN void put_segment(BOUNDARY_SPACE Boundary* boundaries, u32 solid, real in, u32 in_surface, real out,
+                    u32 out_surface) {
     Boundary e;
     e.solid = solid;
     e.t = in;
@@ -57,7 +58,7 @@ FN beside find_faces(Geometry g, SolidRecord solid, ray3 r) {
     if (solid.type == SOLID_MESH) return find_triangles(g, solid, r);
 #endif
 #if HAS_SOLID(SOLID_PLATE)
-    if (solid.type == SOLID_PLATE) return find_ends_of_plates(g, solid, r);
+    if (solid.type == SOLID_PLATE) return find_boundaries_of_plates(g, solid, r);
 #endif
     return not_beside();
 }
@@ -65,8 +66,8 @@ FN beside find_faces(Geometry g, SolidRecord solid, ray3 r) {
 // The segments of every step aside, if the ray runs in a face of the solid. These segments may overlap. `stored`: the
 // number of segments of the unmoved ray, whose memory the new segments take. `r` is the world's ray. The function is
 // not inlined, because inlined rare code slows down every ray.
-NOINLINE_FN u32 collect_beside(Geometry g, SolidRecord solid, u32 index, ray3 r, real t_min, ENDS Boundary* boundaries,
-                               u32 stored) {
+NOINLINE_FN u32 collect_beside(Geometry g, SolidRecord solid, u32 index, ray3 r, real t_min,
+                               BOUNDARY_SPACE Boundary* boundaries, u32 stored) {
     beside b;
     u32 count = 0, near = 0;
     r = ray_at(solid, r);
@@ -98,8 +99,8 @@ NOINLINE_FN u32 collect_beside(Geometry g, SolidRecord solid, u32 index, ray3 r,
 
 // Collects from solids of types that may have more than two segments. Returns 0 for other types; else sets *count. See
 // collect_as_it_is(). `r` is the solid's own ray (ray_at).
-PART_FN u32 collect_many(Geometry g, SolidRecord solid, u32 index, ray3 r, real t_min, ENDS Boundary* boundaries,
-                         u32* count, u32* near) {
+PART_FN u32 collect_many(Geometry g, SolidRecord solid, u32 index, ray3 r, real t_min,
+                         BOUNDARY_SPACE Boundary* boundaries, u32* count, u32* near) {
 #if (CSGRT_SOLIDS) & FLAT_FACED
     if (FLAT_FACED >> solid.type & 1u) {
         *count = collect_once(g, solid, r, no_crossings(index, t_min, boundaries), not_beside(), near);
@@ -144,8 +145,8 @@ FN segments collect_few(Geometry g, SolidRecord solid, ray3 r, real t_min) {
 
 // Collects the segments of the ray as it is. *near becomes 1 if the ray may run in faces of the solid: then the caller
 // needs collect_beside(), too.
-WHOLE_FN u32 collect_as_it_is(Geometry g, SolidRecord solid, u32 index, ray3 r, real t_min, ENDS Boundary* boundaries,
-                              u32* near) {
+WHOLE_FN u32 collect_as_it_is(Geometry g, SolidRecord solid, u32 index, ray3 r, real t_min,
+                              BOUNDARY_SPACE Boundary* boundaries, u32* near) {
     const ray3 own = ray_at(solid, r);
     segments h;
     u32 count;
@@ -158,7 +159,8 @@ WHOLE_FN u32 collect_as_it_is(Geometry g, SolidRecord solid, u32 index, ray3 r, 
 
 // Returns how many segments of the solid end at t_min or later. Their boundaries are stored from `boundaries` on,
 // unless `boundaries` is 0: two a segment, in then out, by ascending distance. `index`: the solid's number.
-WHOLE_FN u32 collect(Geometry g, SolidRecord solid, u32 index, ray3 r, real t_min, ENDS Boundary* boundaries) {
+WHOLE_FN u32 collect(Geometry g, SolidRecord solid, u32 index, ray3 r, real t_min,
+                     BOUNDARY_SPACE Boundary* boundaries) {
     u32 near = 0;
     const u32 count = collect_as_it_is(g, solid, index, r, t_min, boundaries, &near);
 #if (CSGRT_SOLIDS) & FLAT_FACED

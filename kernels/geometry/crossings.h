@@ -20,7 +20,7 @@
 
 // The crossings of a ray with one solid, collected in the memory of the solid's boundaries.
 typedef struct {
-    ENDS Boundary* boundaries;  // memory for the solid's boundaries; 0: they are only counted
+    BOUNDARY_SPACE Boundary* boundaries;  // memory for the solid's boundaries; 0: they are only counted
     u32 solid;
     real t_min;         // segments that end before t_min are not wanted
     u32 behind, ahead;  // crossings before t_min, and the others
@@ -29,7 +29,7 @@ typedef struct {
     u32 missed;  // set in the boundaries' surfaces: MISSED_...
 } crossings;
 
-FN crossings no_crossings(u32 solid, real t_min, ENDS Boundary* boundaries) {
+FN crossings no_crossings(u32 solid, real t_min, BOUNDARY_SPACE Boundary* boundaries) {
     crossings c;
     c.boundaries = boundaries;
     c.solid = solid;
@@ -40,7 +40,7 @@ FN crossings no_crossings(u32 solid, real t_min, ENDS Boundary* boundaries) {
 }
 
 // Inserts a segment among `count` segments that are sorted by the distance and then the surface of their beginning.
-FN void insert_segment(ENDS Boundary* boundaries, u32 count, Boundary in, Boundary out) {
+FN void insert_segment(BOUNDARY_SPACE Boundary* boundaries, u32 count, Boundary in, Boundary out) {
     u32 i = count;
     while (i > 0 && (boundaries[2 * i - 2].t > in.t ||
                      (boundaries[2 * i - 2].t == in.t && boundaries[2 * i - 2].surface > in.surface))) {

@@ -71,7 +71,7 @@ FN beside add_end_of_plates(beside b, mesh_walk w, u32 k, GLOBAL const u32* acro
 }
 
 // The planes through the ray and the lines at which plates end, if the ray meets these lines.
-FN beside find_ends_of_plates(Geometry g, SolidRecord solid, ray3 r) {
+FN beside find_boundaries_of_plates(Geometry g, SolidRecord solid, ray3 r) {
     GLOBAL const u32* words = g.words + solid.first_word;
     GLOBAL const real* place = g.reals + solid.first_real;
     beside b = not_beside();

@@ -30,10 +30,10 @@ typedef real wide;
 typedef uint u32;
 #define GLOBAL __global
 // The memory that holds a ray's boundaries: global, or, in programs for first hits, private.
-#ifdef CSGRT_PRIVATE_ENDS
-#define ENDS __private
+#ifdef CSGRT_PRIVATE_BOUNDARIES
+#define BOUNDARY_SPACE __private
 #else
-#define ENDS __global
+#define BOUNDARY_SPACE __global
 #endif
 #ifdef CSGRT_PACKETS  // packet/packet.h: the same functions for one ray and for several
 #define FN static __attribute__((overloadable))
@@ -69,7 +69,7 @@ FN real real_scaled(real x, int e) { return ldexp(x, e); }  // x 2^e
 // The host includes kernels/ inside a namespace that has defined `real`, `wide`, `u32` and REAL_INFINITY
 // (src/kernel_host/kernels.hpp); src/kernel_host/math.hpp has the functions for each kind of number.
 #define GLOBAL
-#define ENDS
+#define BOUNDARY_SPACE
 #define FN [[maybe_unused]] static inline
 #define INLINE_FN FN
 #define NOINLINE_FN FN

@@ -43,8 +43,8 @@ const Kind& first(const Scene& source) {
     throw Error(Status::usage, "the source has no such object");
 }
 
-/// The memory of an answer whose arrays are gone, for the next: new memory costs a twentieth of the time of a call.
-struct Spare {
+/// A pool of one answer: memory whose arrays are gone, for the next call. New memory takes a twentieth of a call.
+struct AnswerPool {
     std::mutex mutex = {};
     std::unique_ptr<Partitions> answer = {};
     std::unique_ptr<Partitions> take() {
@@ -71,7 +71,7 @@ public:
     const std::string& units() const { return units_; }
     const std::string& title() const { return title_; }
     const Camera& camera() const { return camera_; }
-    const std::shared_ptr<Spare>& spare() const { return spare_; }
+    const std::shared_ptr<AnswerPool>& answer_pool() const { return answer_pool_; }
 
     /// A Model is shared and never changes.
     Model model() const {
@@ -145,7 +145,7 @@ private:
     std::optional<Renderer> renderer_;
     std::optional<Edit> edit_;
     std::mutex computing_, editing_;
-    std::shared_ptr<Spare> spare_ = std::make_shared<Spare>();
+    std::shared_ptr<AnswerPool> answer_pool_ = std::make_shared<AnswerPool>();
     std::atomic<std::thread::id> computes_ = {};  ///< the thread that holds `computing_`
     pid_t process_ = getpid();
 };
@@ -193,18 +193,18 @@ class Figures : public nb::dict {
 
 PartitionArrays partitions(LiveScene& scene, const Doubles& rays, RayRange range, const std::optional<Doubles>& ranges,
                            Fields fields) {
-    // What keeps the answer gives its memory back to the scene, if there is one yet.
+    // Arrays of an answer keep it alive. Afterwards its memory goes back to the scene, if the scene still exists.
     struct Held {
-        std::weak_ptr<Spare> giver;
+        std::weak_ptr<AnswerPool> giver;
         std::unique_ptr<Partitions> answer;
         ~Held() {
-            const auto spare = giver.lock();
-            if (!spare) return;
-            const std::lock_guard lock(spare->mutex);
-            if (!spare->answer) spare->answer = std::move(answer);
+            const auto answer_pool = giver.lock();
+            if (!answer_pool) return;
+            const std::lock_guard lock(answer_pool->mutex);
+            if (!answer_pool->answer) answer_pool->answer = std::move(answer);
         }
     };
-    std::unique_ptr<Held> held(new Held{scene.spare(), scene.spare()->take()});
+    std::unique_ptr<Held> held(new Held{scene.answer_pool(), scene.answer_pool()->take()});
     Partitions& p = *held->answer;
     const auto list = list_of<Ray>(rays);
     scene.trace(list.size(), [&](auto& tracer) { tracer.partitions(list, p, fields, ranges_of(range, ranges)); });

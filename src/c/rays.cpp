@@ -5,7 +5,7 @@ using namespace csgrt::c;
 
 namespace {
 
-/// Of the bits CSGRT_FIELD_..., in the order of the description's lines.
+/// The bits CSGRT_FIELD_... as Fields. The bits have the order of Fields' members in src/form.
 Fields fields_of(unsigned bits) {
     Fields fields;
     unsigned bit = 1;
@@ -17,13 +17,13 @@ Fields fields_of(unsigned bits) {
     return fields;
 }
 
-/// What of which rays a call is asked for.
-struct Asked {
+/// A call's rays, their ranges, and the fields that it shall compute.
+struct RayRequest {
     Rays rays = {};
     RayRanges ranges = {};
     Fields fields = {};
 
-    explicit Asked(const csgrt_rays* given) {
+    explicit RayRequest(const csgrt_rays* given) {
         const csgrt_rays r = read(given, csgrt_rays CSGRT_RAYS, "rays");
         if (r.grid && r.list) refuse("rays->grid and rays->list are both given");
         if (r.ranges && r.range_count == 0) refuse("rays->ranges is given, and rays->range_count is 0");
@@ -55,16 +55,16 @@ const T* pointer_to(const Array<From>& array) {
     return array.empty() ? nullptr : same_layout<const T>(array.data());
 }
 
-// What models and renderers answer alike.
+// ---- Calls that models and renderers share ----
 
 template <class Tracer>
 void cast_rays(Tracer& tracer, const csgrt_rays* rays, const csgrt_hits* hits, Hits& answer) {
     const csgrt_hits h = read(hits, csgrt_hits CSGRT_HITS, "hits");
-    Asked asked(rays);
-    expect_count(h.count, asked.rays.size(), "ray");
-    asked.fields.solids = h.solid_ids != nullptr;
-    asked.fields.normals = h.normals != nullptr;
-    tracer.cast_rays(asked.rays, answer, asked.fields, asked.ranges);
+    RayRequest request(rays);
+    expect_count(h.count, request.rays.size(), "ray");
+    request.fields.solids = h.solid_ids != nullptr;
+    request.fields.normals = h.normals != nullptr;
+    tracer.cast_rays(request.rays, answer, request.fields, request.ranges);
     copy(answer.t_hit, h.t_hit);
     copy(answer.region_ids, h.region_ids);
     copy(answer.solid_ids, h.solid_ids);
@@ -73,9 +73,9 @@ void cast_rays(Tracer& tracer, const csgrt_rays* rays, const csgrt_hits* hits, H
 
 template <class Tracer>
 void occluded(Tracer& tracer, const csgrt_rays* rays, std::span<std::uint8_t> answers, Array<std::uint8_t>& answer) {
-    const Asked asked(rays);
-    expect_count(answers.size(), asked.rays.size(), "ray");
-    tracer.occluded(asked.rays, answer, asked.ranges);
+    const RayRequest request(rays);
+    expect_count(answers.size(), request.rays.size(), "ray");
+    tracer.occluded(request.rays, answer, request.ranges);
     copy(answer, answers.data());
 }
 
@@ -150,8 +150,8 @@ csgrt_status csgrt_partitions_get(const csgrt_partitions* partitions, csgrt_part
 
 csgrt_status csgrt_model_partitions(const csgrt_model* model, const csgrt_rays* rays, csgrt_partitions* partitions) {
     return call([&] {
-        const Asked asked(rays);
-        CSGRT_NEED(model).model.partitions(asked.rays, CSGRT_NEED(partitions).own, asked.fields, asked.ranges);
+        const RayRequest request(rays);
+        CSGRT_NEED(model).model.partitions(request.rays, CSGRT_NEED(partitions).own, request.fields, request.ranges);
     });
 }
 
@@ -187,21 +187,22 @@ csgrt_status csgrt_model_slice(const csgrt_model* model, const csgrt_slice* slic
 
 csgrt_status csgrt_renderer_partitions(csgrt_renderer* renderer, const csgrt_rays* rays, csgrt_partitions* partitions) {
     return call([&] {
-        const Asked asked(rays);
-        CSGRT_NEED(renderer).renderer.partitions(asked.rays, CSGRT_NEED(partitions).own, asked.fields, asked.ranges);
+        const RayRequest request(rays);
+        CSGRT_NEED(renderer).renderer.partitions(request.rays, CSGRT_NEED(partitions).own, request.fields,
+                                                 request.ranges);
     });
 }
 
 csgrt_status csgrt_renderer_partitions_in_batches(csgrt_renderer* renderer, const csgrt_rays* rays, uint64_t most,
                                                   csgrt_take take, void* user) {
     return call([&] {
-        const Asked asked(rays);
+        const RayRequest request(rays);
         CSGRT_NEED(take);
         const auto pass_on = [&](const Partitions& batch, std::uint64_t first_ray) {
             const csgrt_partitions shown{.shown = &batch};
             return take(user, &shown, first_ray) != 0;
         };
-        CSGRT_NEED(renderer).renderer.partitions(asked.rays, pass_on, asked.fields, asked.ranges, most);
+        CSGRT_NEED(renderer).renderer.partitions(request.rays, pass_on, request.fields, request.ranges, most);
     });
 }
 

@@ -245,7 +245,7 @@ Clipped clip_by_half_spaces(const Scene& scene, const FlatScene& flat, const std
     const double margin =
         1e-5 * diagonal(around) + 4 * scene.tolerance + 16 * coordinate_rounding * largest_coordinate(around);
     Clipped result;
-    result.end = widened(around, margin);
+    result.bounded_box = widened(around, margin);
     Cutter cutter(halves, limits, margin);
     std::vector<Use> uses(boxes.size(), Use::none);
     for (const FlatRegion& region : flat.regions) {
@@ -267,7 +267,7 @@ Clipped clip_by_half_spaces(const Scene& scene, const FlatScene& flat, const std
         if (uses[i] == Use::none) {
             box = empty_box;
         } else if (halves[i] && uses[i] == Use::bounded) {
-            std::vector<Plane> faces = sides_of(result.end);
+            std::vector<Plane> faces = sides_of(result.bounded_box);
             faces.push_back(*halves[i]);
             box = polyhedron_box(faces);
             box = is_empty(box) ? empty_box : widened(box, 1e-9 * diagonal(box));

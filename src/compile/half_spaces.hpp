@@ -16,10 +16,10 @@ struct Clipped {
     /// are cut away are gone. No nodes: nothing is left of the region.
     std::vector<FlatTree> trees;
     /// One an instance: the box in which rays have to meet the instance. For most solids it is the solid's box. For a
-    /// half-space that only bounded regions use, it is the part within `end`. It is empty if no tree needs the solid
-    /// and no remaining solid is near.
+    /// half-space that only bounded regions use, it is the part within `bounded_box`. It is empty if no tree needs the
+    /// solid and no remaining solid is near.
     std::vector<Box> ray_boxes;
-    Box end{};  ///< the box around all bounded solids, with a margin greater than the tolerance
+    Box bounded_box{};  ///< the box around all bounded solids, with a margin greater than the tolerance
 };
 
 /// Clips the trees. `boxes`: one an instance, see SolidBoxes::tight.

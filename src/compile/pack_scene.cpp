@@ -126,7 +126,7 @@ private:
                 std::visit(packer, shape);
                 if (packer.record.type == SOLID_HALF && ends(order_[number])) {
                     packer.record.type = SOLID_ARB;  // the half-space's plane is face 0 of the arb, too
-                    for (const Plane& side : sides_of(clipped_.end)) packer.face(side);
+                    for (const Plane& side : sides_of(clipped_.bounded_box)) packer.face(side);
                 }
             }
             part.faces = static_cast<std::uint32_t>(planes.size() - first_plane);

@@ -78,22 +78,22 @@ RegionDifference difference_of(const std::vector<Partition>& exact, const std::v
 }
 
 bool stands_alone(const std::vector<Partition>& found, std::span<const RayPartitions> neighbours, const Blur& blur) {
-    std::vector<double> ends;
+    std::vector<double> boundaries;
     double first_that_counts = -std::numeric_limits<double>::infinity();
-    const auto add_ends = [&](const std::vector<Partition>& partitions) {
+    const auto add_boundaries = [&](const std::vector<Partition>& partitions) {
         for (const Partition& p : partitions) {
-            ends.push_back(p.in);
-            ends.push_back(p.out);
+            boundaries.push_back(p.in);
+            boundaries.push_back(p.out);
             if (blur.ends_at_start(p)) first_that_counts = 0;
         }
     };
-    add_ends(found);
-    for (const RayPartitions& neighbour : neighbours) add_ends(neighbour.partitions);
-    std::sort(ends.begin(), ends.end());
+    add_boundaries(found);
+    for (const RayPartitions& neighbour : neighbours) add_boundaries(neighbour.partitions);
+    std::sort(boundaries.begin(), boundaries.end());
     const double least = (blur.tolerance + 4 * std::sqrt(blur.size * blur.shift)) / length(blur.direction);
-    for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
-        if (!(ends[i + 1] - ends[i] > least) || std::isinf(ends[i + 1] - ends[i])) continue;
-        const double middle = ends[i] + 0.5 * (ends[i + 1] - ends[i]);
+    for (std::size_t i = 0; i + 1 < boundaries.size(); ++i) {
+        if (!(boundaries[i + 1] - boundaries[i] > least) || std::isinf(boundaries[i + 1] - boundaries[i])) continue;
+        const double middle = boundaries[i] + 0.5 * (boundaries[i + 1] - boundaries[i]);
         if (middle < first_that_counts) continue;
         const std::uint32_t first = region_at(neighbours.front().partitions, middle);
         if (region_at(found, middle) != first &&

@@ -6,7 +6,7 @@
 
 #include <csgrt/image.hpp>
 
-#include "view/asked.hpp"
+#include "view/page_request.hpp"
 
 namespace csgrt {
 

@@ -18,7 +18,7 @@
 #include "view/guard.hpp"
 #include "view/page.hpp"
 #include "view/server.hpp"
-#include "view/studio.hpp"
+#include "view/view_session.hpp"
 
 namespace csgrt {
 
@@ -67,7 +67,7 @@ struct Viewer::Impl {
 
     const ViewerOptions options;
     const Guard guard;
-    Studio studio;
+    ViewSession session;
     std::map<std::string, std::function<void(const Request&, Exchange&)>, std::less<>> answers = {};
     Stamp loaded, seen;  ///< of the file: when the model was read, and at the last check
     Clock::time_point next_look = {};
@@ -78,7 +78,7 @@ struct Viewer::Impl {
     Impl(Model model, const Settings& settings, ViewerOptions given)
         : options(std::move(given)),
           guard(options.address, new_token()),
-          studio(std::move(model), settings, options),
+          session(std::move(model), settings, options),
           loaded(stamp_of(options.file)),
           seen(loaded),
           server(
@@ -94,27 +94,27 @@ struct Viewer::Impl {
                 answer_json(exchange, make(request));
             };
         };
-        answer_by("model", [this](const Request&) { return studio.model(); });
-        answer_by("status", [this](const Request&) { return studio.status(); });
-        answer_by("pick", [this](const Request& request) { return studio.pick(request); });
-        answer_by("command", [this](const Request& request) { return studio.command(request); });
+        answer_by("model", [this](const Request&) { return session.model(); });
+        answer_by("status", [this](const Request&) { return session.status(); });
+        answer_by("pick", [this](const Request& request) { return session.pick(request); });
+        answer_by("command", [this](const Request& request) { return session.command(request); });
         answers["end"] = [this](const Request&, Exchange& exchange) {
             answer_json(exchange, Json::object());
             server.stop();
         };
-        const auto send_by = [this](const char* name, void (Studio::*send)(const Request&, const Client&)) {
+        const auto send_by = [this](const char* name, void (ViewSession::*send)(const Request&, const Client&)) {
             answers[name] = [this, send](const Request& request, Exchange& exchange) {
-                (studio.*send)(request, {.is_wanted = [&] { return exchange.is_wanted(); },
-                                         .send =
-                                             [&](auto parts, auto later) {
-                                                 exchange.answer(http::good, "application/octet-stream", parts, later);
-                                             },
-                                         .send_more = [&](std::string_view bytes) { exchange.write(bytes); }});
+                (session.*send)(request, {.is_wanted = [&] { return exchange.is_wanted(); },
+                                          .send =
+                                              [&](auto parts, auto later) {
+                                                  exchange.answer(http::good, "application/octet-stream", parts, later);
+                                              },
+                                          .send_more = [&](std::string_view bytes) { exchange.write(bytes); }});
             };
         };
-        send_by("frame", &Studio::frame);
-        send_by("slice", &Studio::slice);
-        send_by("exr", &Studio::exr);
+        send_by("frame", &ViewSession::frame);
+        send_by("slice", &ViewSession::slice);
+        send_by("exr", &ViewSession::exr);
     }
 
     /// Answers a request that the guard has admitted.
@@ -143,10 +143,10 @@ struct Viewer::Impl {
         if (now != std::exchange(seen, now) || now == loaded) return;  // the file is being written, or has not changed
         loaded = now;
         if (!now.is_file())
-            return studio.set_error(options.file + " " + now.fault() + ": the page shows the model as it was");
+            return session.set_error(options.file + " " + now.fault() + ": the page shows the model as it was");
         is_loading = true;
         server.submit([this] {
-            studio.load_again();
+            session.load_again();
             is_loading = false;
         });
     }

@@ -44,7 +44,7 @@ struct Row {
         for (std::size_t i = 0; i < flat.instances.size(); ++i)
             if (name_of(scene.objects[flat.instances[i].object]) == name) return clipped.ray_boxes.at(i);
         FAIL(name);
-        return clipped.end;
+        return clipped.bounded_box;
     }
     bool is_met(const std::string& name) const { return !is_empty(reach(name)); }
 };

@@ -14,7 +14,7 @@ if(CSGRT_SANITIZE AND CMAKE_CXX_COMPILER_ID MATCHES "Clang" AND TARGET csgrt_cli
     # The readers' own words.
     set(words "")
     file(GLOB_RECURSE readers CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/formats/*.cpp
-        ${PROJECT_SOURCE_DIR}/src/view/asked.cpp ${PROJECT_SOURCE_DIR}/src/view/request_head.cpp)
+        ${PROJECT_SOURCE_DIR}/src/view/page_request.cpp ${PROJECT_SOURCE_DIR}/src/view/request_head.cpp)
     foreach(reader IN LISTS readers)
         file(STRINGS ${reader} lines REGEX "\"[A-Za-z_0-9-]+\"")
         string(REGEX MATCHALL "\"[A-Za-z_0-9-]+\"" found "${lines}")

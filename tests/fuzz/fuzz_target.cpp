@@ -19,7 +19,7 @@
 #include "formats/brlcad/view_script.hpp"
 #ifdef CSGRT_HAVE_VIEW
 #include "form/written_back.hpp"
-#include "view/asked.hpp"
+#include "view/page_request.hpp"
 #include "view/request_head.hpp"
 #endif
 
@@ -72,8 +72,8 @@ void read_request(std::string_view bytes) {
          head.path.size() < guard.root().size()))
         std::abort();  // what the server relies on
     const Request request{std::string(bytes.substr(body))};
-    const Asked asked = read_asked(request);
-    static_cast<void>(drawing_options(asked.view, asked.looks));
+    const PageView page = read_page_view(request);
+    static_cast<void>(drawing_options(page.view, page.looks));
     static_cast<void>(read_slice(request));
 #else
     static_cast<void>(bytes);

@@ -48,7 +48,7 @@ inline Stretches where(const Stretches& a, const Stretches& b, const std::functi
 }
 
 /// Ends of both that are closer than `least` but not the same.
-inline bool has_close_ends(const std::vector<double>& ends, double least) {
+inline bool has_close_boundaries(const std::vector<double>& ends, double least) {
     for (std::size_t i = 0; i + 1 < ends.size(); ++i)
         if (ends[i] != ends[i + 1] && ends[i + 1] - ends[i] < least) return true;
     return false;
@@ -198,7 +198,7 @@ private:
     Renderer reference_, device_;
 };
 
-inline std::vector<double> ends_of(const RayPartitions& answer) {
+inline std::vector<double> boundaries_of(const RayPartitions& answer) {
     std::vector<double> ends;
     for (const Partition& p : answer.partitions) ends.insert(ends.end(), {p.in, p.out});
     for (const Overlap& o : answer.overlaps) ends.insert(ends.end(), {o.in, o.out});

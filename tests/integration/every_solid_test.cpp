@@ -29,11 +29,11 @@ TEST_CASE("every solid: regions are what the operators make of the solids' segme
     std::map<std::string, std::size_t> compared;  // stretches, by place
     Faults faults;
     for (std::size_t i = 0; i < found.size(); ++i) {
-        std::vector<double> ends = ends_of(a[i]);
-        const std::vector<double> others = ends_of(b[i]);
-        ends.insert(ends.end(), others.begin(), others.end());
-        std::sort(ends.begin(), ends.end());
-        if (has_close_ends(ends, 1e-8)) continue;  // they may be one
+        std::vector<double> boundaries = boundaries_of(a[i]);
+        const std::vector<double> others = boundaries_of(b[i]);
+        boundaries.insert(boundaries.end(), others.begin(), others.end());
+        std::sort(boundaries.begin(), boundaries.end());
+        if (has_close_boundaries(boundaries, 1e-8)) continue;  // they may be one
         // Of each place: what its region has, or its two regions.
         std::map<std::string, Stretches> of_first, of_second, regions;
         for (const Partition& p : a[i].partitions)
@@ -83,15 +83,15 @@ TEST_CASE(
     for (std::size_t i = 0; i < base.size(); ++i) {
         const Ray& ray = model.rays[i];
         faults.add(fault_of(base[i], ray, both), "ray " + std::to_string(i));
-        const std::vector<double> ends = ends_of(base[i]);
-        if (has_close_ends(ends, clear)) continue;
-        // Between every two ends, and beyond the last.
-        for (std::size_t k = 0; k < ends.size(); ++k) {
-            const double next = k + 1 < ends.size() ? ends[k + 1] : ends[k] + 10;
-            const double start = std::isinf(ends[k]) ? next - 20
-                                 : std::isinf(next)  ? ends[k] + 20
-                                                     : 0.5 * (ends[k] + next);
-            if (!(start > 0) || ends[k] == next) continue;
+        const std::vector<double> boundaries = boundaries_of(base[i]);
+        if (has_close_boundaries(boundaries, clear)) continue;
+        // Between every two boundaries, and beyond the last.
+        for (std::size_t k = 0; k < boundaries.size(); ++k) {
+            const double next = k + 1 < boundaries.size() ? boundaries[k + 1] : boundaries[k] + 10;
+            const double start = std::isinf(boundaries[k]) ? next - 20
+                                 : std::isinf(next)        ? boundaries[k] + 20
+                                                           : 0.5 * (boundaries[k] + next);
+            if (!(start > 0) || boundaries[k] == next) continue;
             RayPartitions rest;
             for (const Partition& p : base[i].partitions) {
                 const std::string sample = sample_of(both.region(p.region));
@@ -171,7 +171,8 @@ TEST_CASE("every solid: a ray has the same regions and overlaps from its other e
     Faults faults;
     std::size_t overlaps = 0;
     for (std::size_t i = 0; i < found.size(); ++i) {
-        if (has_close_ends(ends_of(base[i]), clear) || has_close_ends(ends_of(found[i]), clear)) continue;
+        if (has_close_boundaries(boundaries_of(base[i]), clear) || has_close_boundaries(boundaries_of(found[i]), clear))
+            continue;
         RayPartitions mirrored;
         const auto ahead = [&](const auto& stretch) { return stretch.in <= lengths[i]; };  // of the other start
         for (auto p = found[i].partitions.rbegin(); p != found[i].partitions.rend(); ++p) {
@@ -326,7 +327,7 @@ TEST_CASE("every solid: what is thinner than the tolerance vanishes, what is thi
         std::map<std::string, std::size_t> met;
         Faults faults;
         for (std::size_t i = 0; i < rays.size(); ++i) {
-            if (has_close_ends(ends_of(whole[i]), 20 * thickness)) continue;
+            if (has_close_boundaries(boundaries_of(whole[i]), 20 * thickness)) continue;
             const std::vector<Partition>& seen = films[i].partitions;
             if (tolerance > thickness && !seen.empty()) faults.add("a film is there", std::to_string(i));
             if (tolerance > thickness) continue;
@@ -437,7 +438,7 @@ TEST_CASE("every solid: a placement moves it, turns it, stretches it and mirrors
         const std::vector<RayPartitions> expected = Renderer(scene, {bounded[s]}, on_reference()).shoot(at_origin[s]);
         std::size_t met = 0;
         for (std::size_t i = 0; i < expected.size(); ++i) {
-            if (has_close_ends(ends_of(expected[i]), clear)) continue;
+            if (has_close_boundaries(boundaries_of(expected[i]), clear)) continue;
             std::vector<Partition> mine;
             for (const Partition& p : found[20 * s + i].partitions)
                 if (both.region(p.region) == "placed " + bounded[s]) mine.push_back(p);

@@ -44,12 +44,12 @@ void require_own_declarations(const std::vector<Settings>& all) {
                                           "4_evaluate.cl",       "5_shade.cl"};
         require_own(exact);
         require_own({"tile_list.cl"});
-        defines.push_back("CSGRT_PRIVATE_ENDS");
+        defines.push_back("CSGRT_PRIVATE_BOUNDARIES");
         require_own({"0_cull_tiles.cl", "shading/first_hits_ray.h", "first_hits.cl"});
         defines.push_back("CSGRT_PACKETS");
         if (is_single) continue;
         require_own({"0_cull_tiles.cl", "packet/first_hits_packet.h", "first_hits.cl"});
-        std::erase(defines, "CSGRT_PRIVATE_ENDS");
+        std::erase(defines, "CSGRT_PRIVATE_BOUNDARIES");
         exact.insert(exact.begin() + 1, "1_packet_candidates.cl");
         require_own(exact);
     }

@@ -33,12 +33,13 @@ endfunction()
 
 foreach(number double single relative)
     check(${${number}} FILES 0_cull_tiles.cl ${every_partition})
-    check(${${number}} -DCSGRT_PRIVATE_ENDS -DCSGRT_FEW=64u
+    check(${${number}} -DCSGRT_PRIVATE_BOUNDARIES -DCSGRT_FEW=64u
         FILES 0_cull_tiles.cl shading/first_hits_ray.h first_hits.cl)
     check(${${number}} FILES tile_list.cl)
 endforeach()
 check(${packets} FILES 0_cull_tiles.cl 1_packet_candidates.cl ${every_partition})
-check(${packets} -DCSGRT_PRIVATE_ENDS -DCSGRT_PREFETCH FILES 0_cull_tiles.cl packet/first_hits_packet.h first_hits.cl)
+check(${packets} -DCSGRT_PRIVATE_BOUNDARIES -DCSGRT_PREFETCH
+    FILES 0_cull_tiles.cl packet/first_hits_packet.h first_hits.cl)
 if(BEHIND)  # another's kernels, with BEHIND_OPTIONS
     check(${double} ${BEHIND_OPTIONS} FILES ${every_partition} ${BEHIND})
 endif()

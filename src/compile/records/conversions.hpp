@@ -96,11 +96,11 @@ k::RayRecord convert(const kernel::RayRecord& r) {
             static_cast<wide>(r.dy), static_cast<wide>(r.dz), static_cast<wide>(r.t_near), static_cast<wide>(r.t_far)};
 }
 
-[[maybe_unused]] std::vector<kernel::Boundary> ends_of(std::vector<kernel::Boundary>&& boundaries) {
+[[maybe_unused]] std::vector<kernel::Boundary> boundaries_of(std::vector<kernel::Boundary>&& boundaries) {
     return std::move(boundaries);
 }
 template <class Boundary>
-std::vector<kernel::Boundary> ends_of(std::vector<Boundary>&& boundaries) {
+std::vector<kernel::Boundary> boundaries_of(std::vector<Boundary>&& boundaries) {
     std::vector<kernel::Boundary> result;
     result.reserve(boundaries.size());
     for (const Boundary& e : boundaries) result.push_back({static_cast<double>(e.t), e.solid, e.surface});

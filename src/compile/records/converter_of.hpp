@@ -53,7 +53,7 @@ public:
     std::vector<kernel::Boundary> boundaries(const std::vector<std::byte>& bytes) const override {
         std::vector<k::Boundary> boundaries(bytes.size() / sizeof(k::Boundary));
         if (!boundaries.empty()) std::memcpy(boundaries.data(), bytes.data(), bytes.size());
-        return ends_of(std::move(boundaries));
+        return boundaries_of(std::move(boundaries));
     }
 
 private:

@@ -85,7 +85,8 @@ bool DeepRayPass::prepare(const std::vector<kernel::RayCount>& offsets, std::uin
                 break;
             most_segment_bytes = more_segment_bytes;
             most_rays = std::max(most_rays, ++group.count);
-            group.most_ends = std::max(group.most_ends, 2 * (listed_[ray + 1].segment - listed_[ray].segment));
+            group.most_boundaries =
+                std::max(group.most_boundaries, 2 * (listed_[ray + 1].segment - listed_[ray].segment));
         }
         if (group.count == 0) return false;
         groups_.push_back(group);
@@ -120,12 +121,12 @@ void DeepRayPass::launch(const BatchBuffers& batch, Work work, PartitionMemory& 
     const auto add = [&](Event event) { timed.emplace_back(&PipelineCounts::evaluate, std::move(event)); };
     add(clear_status_.launch(words, work_group, tree_->outside, tree_->cluster_words, tree_->words, words, status_));
     for (const Group& group : groups_) {
-        for (std::uint32_t boundaries = 0; boundaries < group.most_ends; boundaries += ends_a_launch)
+        for (std::uint32_t boundaries = 0; boundaries < group.most_boundaries; boundaries += boundaries_a_launch)
             add(sweep_.launch(group.count, divergent_group(device_), batch.frame, batch.rays, batch.numbers(work),
                               rays_, group.first, cl_uint{listed_[group.first].segment}, group.count, memory.offsets(),
                               memory.boundaries(), memory.partitions(), segments_, status_, tree_->cluster_words,
                               static_cast<cl_uint>(scene_->regions.size()), tree_->links, tree_->first_leaves,
-                              tree_->leaves, cl_uint{ends_a_launch}, memory.ray_tallies()));
+                              tree_->leaves, cl_uint{boundaries_a_launch}, memory.ray_tallies()));
         device_.flush();
     }
 }

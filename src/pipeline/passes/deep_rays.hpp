@@ -38,8 +38,8 @@ public:
     std::uint64_t held() const { return rays_.size() + segments_.size() + status_.size(); }
     void release();
 
-    std::uint32_t rays_at_a_time;          ///< at most
-    std::uint32_t ends_a_launch = 16'384;  ///< boundaries of a ray: on any device a fraction of a second
+    std::uint32_t rays_at_a_time;                ///< at most
+    std::uint32_t boundaries_a_launch = 16'384;  ///< boundaries of a ray: on any device a fraction of a second
 
 private:
     /// The scene's status tree on the device.
@@ -51,7 +51,7 @@ private:
     };
     /// Rays that are swept side by side.
     struct Group {
-        std::uint32_t first, count, most_ends;
+        std::uint32_t first, count, most_boundaries;
     };
     /// Makes the status tree, if it is not made yet. Returns false if the device has not enough memory now.
     bool has_tree(std::uint64_t spoken_for);

@@ -12,7 +12,7 @@ bool prefetches(const Device& device, const CompiledScene& scene, const Settings
 
 std::vector<std::string> options_of(const Device& device, const CompiledScene& scene, const Settings& settings) {
     std::vector<std::string> options = program_options(device, ProgramNeeds(scene), settings);
-    options.push_back("CSGRT_PRIVATE_ENDS");
+    options.push_back("CSGRT_PRIVATE_BOUNDARIES");
     if (prefetches(device, scene, settings)) options.push_back("CSGRT_PREFETCH");
     if (scene.solids.size() > 32) options.push_back("CSGRT_FEW=64u");  // measured: docs/experiments.md
     return options;

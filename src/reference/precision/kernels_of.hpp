@@ -43,12 +43,13 @@ public:
                      std::vector<kernel::OverlapRecord>& overlap_records) const override {
         const k::Frame& frame = convert_frame(f);
         const k::RayRecord record = convert(ray);
-        std::vector<k::Boundary> own_ends;
-        for (const kernel::Boundary& e : boundaries) own_ends.push_back({static_cast<real>(e.t), e.solid, e.surface});
+        std::vector<k::Boundary> own_boundaries;
+        for (const kernel::Boundary& e : boundaries)
+            own_boundaries.push_back({static_cast<real>(e.t), e.solid, e.surface});
         std::vector<k::PartitionNode> own_nodes;
         for (const kernel::PartitionNode& n : nodes)
             own_nodes.push_back({n.in_boundary, n.out_boundary, n.next, n.owner});
-        k::ray_rows w = k::rows_of(&frame, record, own_ends.data(), own_nodes.data(),
+        k::ray_rows w = k::rows_of(&frame, record, own_boundaries.data(), own_nodes.data(),
                                    static_cast<k::u32>(nodes.size() / 2)),
                     overlaps = w;
         const k::ray3 r = k::geometry_ray(&frame, k::listed_ray(record));
@@ -57,7 +58,7 @@ public:
                 solids.push_back(number == NONE ? -1 : static_cast<std::int32_t>(boundaries[number].solid));
             if (!fields.normals) return;
             const k::vec3 n =
-                number == NONE ? k::make_vec3(0, 0, 0) : k::row_normal(g_, r, own_ends[number], number, is_out);
+                number == NONE ? k::make_vec3(0, 0, 0) : k::row_normal(g_, r, own_boundaries[number], number, is_out);
             normals.push_back({static_cast<double>(n.x), static_cast<double>(n.y), static_cast<double>(n.z)});
         };
         k::ray_row row;
@@ -111,7 +112,7 @@ public:
             meet_boxes(frame, r, t_min, meet);
         }
         const std::span<const WovenPartition> woven = weave(own, k::tolerance_along(&frame, r), weaver);
-        boundaries = ends_of(std::move(own));
+        boundaries = boundaries_of(std::move(own));
         return woven;
     }
     Seen seen(const kernel::Frame& f, const Ray& ray) const override {

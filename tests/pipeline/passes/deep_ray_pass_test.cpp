@@ -45,12 +45,12 @@ TEST_CASE("deep rays have the same answers in groups of any size and in any numb
     Shot shot(test::deep_parts(3, 400, 40));
     const std::vector<RayPartitions> expected = shot.expected();
     const std::uint32_t usual_rays = shot.pass.deep_rays().rays_at_a_time,
-                        usual_ends = shot.pass.deep_rays().ends_a_launch;
+                        usual_boundaries = shot.pass.deep_rays().boundaries_a_launch;
     for (const auto& [rays, boundaries] :
-         {std::pair{usual_rays, usual_ends}, {7u, usual_ends}, {1u, 100u}, {usual_rays, 1u}, {64u, 37u}}) {
+         {std::pair{usual_rays, usual_boundaries}, {7u, usual_boundaries}, {1u, 100u}, {usual_rays, 1u}, {64u, 37u}}) {
         INFO(rays << " rays at a time, " << boundaries << " ends a launch");
         shot.pass.deep_rays().rays_at_a_time = rays;
-        shot.pass.deep_rays().ends_a_launch = boundaries;
+        shot.pass.deep_rays().boundaries_a_launch = boundaries;
         REQUIRE(shot.trace());
         test::require_same(shot.answers(), expected);
     }

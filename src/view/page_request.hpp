@@ -1,4 +1,4 @@
-// What a page asks for: the texts of its requests. All throw Error (usage), which names the member.
+// Requests of the page, which are JSON texts. All functions throw Error (usage) that names the faulty member.
 #pragma once
 
 #include <string>
@@ -16,11 +16,11 @@ namespace csgrt {
 
 using Json = nlohmann::json;
 
-/// What the pixels of a frame tell.
+/// The quantity that a frame's pixels show.
 enum class Show { color, depth, normal, region, overlap, segments };
 
-/// A view as the page has it, keeps it in its address and saves it.
-struct Asked {
+/// A page's view, as the page's address and its saved files hold it.
+struct PageView {
     View view = {};
     std::vector<Look> looks = {};
     Show show = Show::color;
@@ -28,21 +28,21 @@ struct Asked {
 
 constexpr int most_pixels_of_side = 8192;
 
-/// An object. Members are taken by name and type.
+/// A JSON object, whose members are read by name and type.
 class Request {
 public:
-    /// Of a body, or of a member's value called `name`.
+    /// Reads a request's body, or takes a member's value. `name`: the member's, for errors.
     explicit Request(const std::string& body);
     Request(Json value, std::string name) : value_(std::move(value)), name_(std::move(name)) { expect_object(); }
 
     bool has(const char* member) const { return value_.contains(member); }
     double number(const char* member) const;
     int count(const char* member, int low, int high) const;
-    bool flag(const char* member) const;  ///< false if it is not there
+    bool flag(const char* member) const;  ///< false if the member is missing
     std::string text(const char* member) const;
     Vec3 vector(const char* member) const;
     Request object(const char* member) const { return {get(member), path(member)}; }
-    std::vector<Request> objects(const char* member) const;  ///< none if it is not there
+    std::vector<Request> objects(const char* member) const;  ///< none if the member is missing
 
 private:
     void expect_object() const;
@@ -54,12 +54,11 @@ private:
     std::string name_;
 };
 
-/// The view of a request, with its size in pixels.
-Asked read_asked(const Request& request);
-/// Pixels in a plane; looks are read apart.
+/// Reads the member `view` of a request, and the size in pixels, which stands beside it.
+PageView read_page_view(const Request& request);
+/// Reads a slice's plane and pixels, not its looks.
 Slice read_slice(const Request& request);
 
 Json to_json(const Vec3& v);
-/// As requests have it.
 
 }  // namespace csgrt

@@ -1,4 +1,4 @@
-#include "asked.hpp"
+#include "page_request.hpp"
 
 #include <algorithm>
 #include <array>
@@ -29,7 +29,7 @@ auto named(const Names& names, const Request& request, const char* member) {
     throw Error(Status::usage, std::string(member) + ": there is no '" + name + "'");
 }
 
-/// The numbers, flags and points that a request gives of a camera or a view.
+/// Reads the numbers, flags and points of a camera or a view.
 template <class S>
 void read_members(const Request& request, S& s) {
     form::for_members(form::of<S>, [&](const auto& member) {
@@ -51,7 +51,7 @@ void read_members(const Request& request, S& s) {
 
 }  // namespace
 
-// What is nested deeper than a thread's stack goes would end the program where it is copied.
+// A limit of nesting: Json is copied by recursion, and brackets nested too deep would overflow a thread's stack.
 Request::Request(const std::string& body)
     : value_(Json::parse(
           body,
@@ -122,24 +122,24 @@ std::vector<Request> Request::objects(const char* member) const {
     return all;
 }
 
-Asked read_asked(const Request& request) {
-    Asked asked;
+PageView read_page_view(const Request& request) {
+    PageView page;
     const Request view = request.object("view");
-    read_members(view.object("camera"), asked.view.camera);
+    read_members(view.object("camera"), page.view.camera);
     for (const Request& plane : view.objects("clip"))
-        asked.view.clip.push_back({plane.vector("normal"), plane.number("distance")});
+        page.view.clip.push_back({plane.vector("normal"), plane.number("distance")});
     for (const Request& one : view.objects("looks")) {
         Look look{.path = one.text("path")};
         if (one.has("state")) look.state = named(state_names, one, "state");
         if (one.has("color")) look.color = one.vector("color");
-        asked.looks.push_back(std::move(look));
+        page.looks.push_back(std::move(look));
     }
-    if (view.has("show")) asked.show = named(shows, view, "show");
-    asked.view.width = asked.view.height = 1;
-    read_members(view, asked.view);
-    read_members(request, asked.view);
-    asked.view.every_partition = asked.show == Show::overlap || asked.show == Show::segments;
-    return asked;
+    if (view.has("show")) page.show = named(shows, view, "show");
+    page.view.width = page.view.height = 1;
+    read_members(view, page.view);
+    read_members(request, page.view);
+    page.view.every_partition = page.show == Show::overlap || page.show == Show::segments;
+    return page;
 }
 
 Slice read_slice(const Request& request) {

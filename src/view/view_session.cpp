@@ -1,4 +1,4 @@
-#include "studio.hpp"
+#include "view_session.hpp"
 
 #include <zlib.h>
 
@@ -26,9 +26,9 @@ namespace csgrt {
 
 namespace {
 
-constexpr std::size_t most_dressed = 16, most_pages = 256, most_spare = 2;
-constexpr std::size_t most_lent = 64'000'000;  ///< bytes: four frames of 2000 x 2000
-constexpr std::chrono::milliseconds turn{5};   ///< between two looks whether a frame that waits is still wanted
+constexpr std::size_t most_edited = 16, most_pages = 256, most_pooled = 2;
+constexpr std::size_t most_answer_bytes = 64'000'000;  ///< four frames of 2000 x 2000
+constexpr std::chrono::milliseconds turn{5};           ///< between two checks whether a waiting request is still wanted
 
 Json to_json(const Box& box) {
     if (!(box.low.x <= box.high.x)) return nullptr;
@@ -45,7 +45,7 @@ Json to_json(const Model& model, std::int64_t solid) {
     return {{"name", info.name}, {"type", info.type}};
 }
 
-/// A camera with every member that a page has. One that is given by its eye stands upright here.
+/// A camera with every member that a page has. A camera given by its eye becomes upright.
 Json camera_of(const Model& model, const Camera& camera) {
     double azimuth = camera.azimuth, elevation = camera.elevation, size = camera.view_size.value_or(1000);
     Vec3 center = camera.center.value_or(camera.look_at.value_or(Vec3{}));
@@ -77,7 +77,7 @@ std::vector<std::string> paths_of(const Model& model) {
     return paths;
 }
 
-/// Whether a region is at a path or below it.
+/// Whether a region's path is `path` or lies below it.
 bool leads_somewhere(const std::vector<std::string>& paths, const std::string& path) {
     return std::ranges::binary_search(paths, path) || [&] {
         const auto next = std::ranges::lower_bound(paths, path + "/");
@@ -85,8 +85,8 @@ bool leads_somewhere(const std::vector<std::string>& paths, const std::string& p
     }();
 }
 
-/// Neighbours in a row are alike, so that their differences are small and few. zlib's fastest level takes less than the
-/// link it is meant for.
+/// Each pixel's difference from the pixel before, compressed. Neighbours are alike, so that the differences are small.
+/// zlib's fastest level takes less time than the network that this is meant for.
 std::string deflated(const std::vector<std::uint32_t>& pixels) {
     const std::size_t size = pixels.size() * sizeof pixels[0];
     std::string differences(size, '\0');
@@ -114,7 +114,7 @@ std::string bytes_of(const Value* values, std::size_t count) {
     return {reinterpret_cast<const char*>(values), count * sizeof(Value)};
 }
 
-/// False: it was given up.
+/// Locks. False: is_wanted() ended the wait.
 bool take(std::unique_lock<std::timed_mutex>& lock, const std::function<bool()>& is_wanted) {
     while (!lock.try_lock_for(turn))
         if (!is_wanted()) return false;
@@ -123,7 +123,7 @@ bool take(std::unique_lock<std::timed_mutex>& lock, const std::function<bool()>&
 
 }  // namespace
 
-Studio::Studio(Model model, const Settings& settings, ViewerOptions options)
+ViewSession::ViewSession(Model model, const Settings& settings, ViewerOptions options)
     : options_(std::move(options)),
       methods_(options_text(Settings{.precision = settings.precision, .display_shading = settings.display_shading})),
       current_{.base = model, .paths = paths_of(model)},
@@ -133,29 +133,30 @@ Studio::Studio(Model model, const Settings& settings, ViewerOptions options)
           return own;
       }()) {
     device_ = renderer_.statistics().device;
-    spare_pixels_.reserve(most_spare);
+    pixel_pool_.reserve(most_pooled);
 }
 
-Studio::Lent::Lent(Studio& from, std::size_t bytes, const std::function<bool()>& is_wanted) : studio_(from) {
+ViewSession::AnswerMemory::AnswerMemory(ViewSession& from, std::size_t bytes, const std::function<bool()>& is_wanted)
+    : session_(from) {
     for (; is_wanted(); std::this_thread::sleep_for(turn)) {
-        const std::lock_guard lock(studio_.current_mutex_);
-        if (studio_.lent_bytes_ > 0 && studio_.lent_bytes_ + bytes > most_lent) continue;
-        studio_.lent_bytes_ += bytes_ = bytes;
-        if (studio_.spare_pixels_.empty()) return;
-        pixels = std::move(studio_.spare_pixels_.back());
-        studio_.spare_pixels_.pop_back();
+        const std::lock_guard lock(session_.current_mutex_);
+        if (session_.answer_bytes_ > 0 && session_.answer_bytes_ + bytes > most_answer_bytes) continue;
+        session_.answer_bytes_ += bytes_ = bytes;
+        if (session_.pixel_pool_.empty()) return;
+        pixels = std::move(session_.pixel_pool_.back());
+        session_.pixel_pool_.pop_back();
         return;
     }
 }
 
-Studio::Lent::~Lent() {
-    const std::lock_guard lock(studio_.current_mutex_);
-    studio_.lent_bytes_ -= bytes_;
-    if (pixels.capacity() * sizeof pixels[0] <= most_lent && studio_.spare_pixels_.size() < most_spare)
-        studio_.spare_pixels_.push_back(std::move(pixels));
+ViewSession::AnswerMemory::~AnswerMemory() {
+    const std::lock_guard lock(session_.current_mutex_);
+    session_.answer_bytes_ -= bytes_;
+    if (pixels.capacity() * sizeof pixels[0] <= most_answer_bytes && session_.pixel_pool_.size() < most_pooled)
+        session_.pixel_pool_.push_back(std::move(pixels));
 }
 
-Json Studio::model() const {
+Json ViewSession::model() const {
     std::unique_lock lock(current_mutex_);
     const Model model = current_.base;
     const std::string error = current_.error, device = device_;
@@ -204,14 +205,14 @@ Json Studio::model() const {
             {"error", error.empty() ? Json(nullptr) : Json(error)}};
 }
 
-Json Studio::status() const {
+Json ViewSession::status() const {
     const std::lock_guard lock(current_mutex_);
     return {{"generation", current_.generation},
             {"error", current_.error.empty() ? Json(nullptr) : Json(current_.error)},
             {"device", device_}};
 }
 
-Studio::Dressed Studio::model_with(const std::vector<Look>& looks) {
+ViewSession::EditedModel ViewSession::model_with(const std::vector<Look>& looks) {
     std::string key;
     for (const Look& look : looks) {
         key += look.path + '\n';
@@ -222,25 +223,25 @@ Studio::Dressed Studio::model_with(const std::vector<Look>& looks) {
     std::unique_lock lock(current_mutex_);
     const std::uint64_t generation = current_.generation;
     if (looks.empty()) return {current_.base, generation};
-    auto& dressed = current_.dressed;
-    if (const auto found = std::ranges::find(dressed, key, &std::pair<std::string, Model>::first);
-        found != dressed.end()) {
-        dressed.splice(dressed.begin(), dressed, found);
+    auto& edited = current_.edited;
+    if (const auto found = std::ranges::find(edited, key, &std::pair<std::string, Model>::first);
+        found != edited.end()) {
+        edited.splice(edited.begin(), edited, found);
         return {found->second, generation};
     }
     Edit edit(current_.base);
     for (const Look& look : looks) {
-        if (!leads_somewhere(current_.paths, look.path)) continue;  // it went with another version of the file
+        if (!leads_somewhere(current_.paths, look.path)) continue;  // the region was in another version of the file
         if (look.state) edit.set_state(look.path, *look.state);
         if (look.color) edit.set_color(look.path, *look.color);
     }
-    dressed.emplace_front(std::move(key), edit.commit());
-    if (dressed.size() > most_dressed) dressed.pop_back();
-    return {dressed.front().second, generation};
+    edited.emplace_front(std::move(key), edit.commit());
+    if (edited.size() > most_edited) edited.pop_back();
+    return {edited.front().second, generation};
 }
 
-bool Studio::with_renderer(const Model& model, const std::function<bool()>& is_wanted,
-                           const std::function<void()>& draw) {
+bool ViewSession::with_renderer(const Model& model, const std::function<bool()>& is_wanted,
+                                const std::function<void()>& draw) {
     std::unique_lock lock(drawing_, std::defer_lock);
     if (!take(lock, is_wanted)) return false;
     struct Wanted {
@@ -259,13 +260,13 @@ bool Studio::with_renderer(const Model& model, const std::function<bool()>& is_w
     return true;
 }
 
-void Studio::frame(const Request& request, const Client& client) {
-    Asked asked = read_asked(request);
+void ViewSession::frame(const Request& request, const Client& client) {
+    PageView page = read_page_view(request);
     const auto number = static_cast<std::uint64_t>(request.count("number", 0, std::numeric_limits<int>::max()));
     const bool deflates = request.text("encoding") == "deflate";
     const auto newest = [&] {
         const std::lock_guard lock(current_mutex_);
-        if (pages_.size() > most_pages) pages_.clear();  // frames that are being drawn keep theirs
+        if (pages_.size() > most_pages) pages_.clear();  // a frame that is being drawn keeps its page's entry
         auto& of_page = pages_[request.text("page").substr(0, 64)];
         if (!of_page) of_page = std::make_shared<std::atomic<std::uint64_t>>();
         *of_page = std::max<std::uint64_t>(*of_page, number);
@@ -279,26 +280,23 @@ void Studio::frame(const Request& request, const Client& client) {
     const Json cancelled = {{"cancelled", true}};
     try {
         const std::size_t count =
-            static_cast<std::size_t>(asked.view.width) * static_cast<std::size_t>(asked.view.height);
-        Lent lent(*this, sizeof(std::uint32_t) * count * (deflates ? 3 : 1), is_newest);
-        if (!lent) return send(cancelled);
-        const auto [model, generation] = model_with(asked.looks);
+            static_cast<std::size_t>(page.view.width) * static_cast<std::size_t>(page.view.height);
+        AnswerMemory memory(*this, sizeof(std::uint32_t) * count * (deflates ? 3 : 1), is_newest);
+        if (!memory) return send(cancelled);
+        const auto [model, generation] = model_with(page.looks);
         const bool has_ghosts =
             std::ranges::any_of(model.regions(), [](const RegionInfo& region) { return region.state == State::ghost; });
-        asked.view.channels = channels_for(asked.show, has_ghosts);
-        Json head = {{"number", number},
-                     {"width", asked.view.width},
-                     {"height", asked.view.height},
-                     {"samples", asked.view.samples},
-                     {"generation", generation},
-                     {"encoding", deflates ? "deflate" : "raw"}};
-        std::vector<std::uint32_t>& pixels = lent.pixels;
+        page.view.channels = channels_for(page.show, has_ghosts);
+        Json head = {{"number", number},           {"width", page.view.width},
+                     {"height", page.view.height}, {"samples", page.view.samples},
+                     {"generation", generation},   {"encoding", deflates ? "deflate" : "raw"}};
+        std::vector<std::uint32_t>& pixels = memory.pixels;
         pixels.resize(count);
         if (!with_renderer(model, is_newest, [&] {
-                renderer_.render(asked.view, framebuffer_);
+                renderer_.render(page.view, framebuffer_);
                 head["draw_ms"] = renderer_.statistics().ms.frame;
                 head["device"] = renderer_.statistics().device;
-                paint(framebuffer_.image(), asked.show, pixels);
+                paint(framebuffer_.image(), page.show, pixels);
             }))
             return send(cancelled);
         if (deflates) return send(head, deflated(pixels));
@@ -310,11 +308,11 @@ void Studio::frame(const Request& request, const Client& client) {
     }
 }
 
-Json Studio::pick(const Request& request) {
-    const Asked asked = read_asked(request);
-    const auto [model, generation] = model_with(asked.looks);
-    const int x = request.count("x", 0, asked.view.width - 1), y = request.count("y", 0, asked.view.height - 1);
-    const Pick pick = model.pick(asked.view, x, y);
+Json ViewSession::pick(const Request& request) {
+    const PageView page = read_page_view(request);
+    const auto [model, generation] = model_with(page.looks);
+    const int x = request.count("x", 0, page.view.width - 1), y = request.count("y", 0, page.view.height - 1);
+    const Pick pick = model.pick(page.view, x, y);
     Json answer = {{"region", pick.region < 0 ? Json(nullptr) : Json(pick.region)}, {"generation", generation}};
     if (pick.region >= 0) answer["point"] = to_json(pick.point);
     if (request.flag("brief")) return answer;
@@ -342,41 +340,41 @@ Json Studio::pick(const Request& request) {
     return answer;
 }
 
-std::string Studio::picture_command(const Asked& asked) const {
-    View written = asked.view;
-    written.every_partition = true;  // the option chooses what is computed, which the file's type does in a command
-    return "csgrt " + options_.command + methods_ + drawing_options(written, asked.looks);
+std::string ViewSession::picture_command(const PageView& page) const {
+    View written = page.view;
+    written.every_partition = true;  // in a command, the file's type chooses whether to compute them
+    return "csgrt " + options_.command + methods_ + drawing_options(written, page.looks);
 }
 
-Json Studio::command(const Request& request) const {
-    return {{"command", picture_command(read_asked(request)) + " -o view.png"}};
+Json ViewSession::command(const Request& request) const {
+    return {{"command", picture_command(read_page_view(request)) + " -o view.png"}};
 }
 
-// By the Renderer, which can be stopped.
-void Studio::slice(const Request& request, const Client& client) {
+// The Renderer computes the slice, because it can be stopped.
+void ViewSession::slice(const Request& request, const Client& client) {
     const Slice slice = read_slice(request);
-    const Model model = model_with(read_asked(request).looks).model;
-    const Lent lent(*this, sizeof(std::int32_t) * static_cast<std::size_t>(slice.width) * slice.height,
-                    client.is_wanted);
+    const Model model = model_with(read_page_view(request).looks).model;
+    const AnswerMemory memory(*this, sizeof(std::int32_t) * static_cast<std::size_t>(slice.width) * slice.height,
+                              client.is_wanted);
     Array<std::int32_t> ids;
-    if (!lent || !with_renderer(model, client.is_wanted, [&] { renderer_.slice(slice, ids); })) return;
+    if (!memory || !with_renderer(model, client.is_wanted, [&] { renderer_.slice(slice, ids); })) return;
     client.send({{reinterpret_cast<const char*>(ids.data()), ids.size() * sizeof ids.data()[0]}}, 0);
 }
 
-void Studio::exr(const Request& request, const Client& client) {
+void ViewSession::exr(const Request& request, const Client& client) {
     if (!options_.write_exr) throw Error(Status::usage, "this csgrt was built without OpenImageIO and writes no EXR");
-    Asked asked = read_asked(request);
-    asked.view.every_partition = true;
-    asked.view.channels = channel::all;
-    std::unique_lock alone(exporting_, std::defer_lock);  // a large one takes gigabytes
+    PageView page = read_page_view(request);
+    page.view.every_partition = true;
+    page.view.channels = channel::all;
+    std::unique_lock alone(exporting_, std::defer_lock);  // a large image takes gigabytes
     if (!take(alone, client.is_wanted)) return;
     Image image;
-    if (!with_renderer(model_with(asked.looks).model, client.is_wanted, [&] {
-            image = renderer_.render(asked.view);
+    if (!with_renderer(model_with(page.looks).model, client.is_wanted, [&] {
+            image = renderer_.render(page.view);
             renderer_.name_pixels(image);
         }))
         return;
-    image.attributes["csgrt:command"] = picture_command(asked);
+    image.attributes["csgrt:command"] = picture_command(page);
     const PrivateFolder folder;
     const std::string path = folder / "view.exr";
     try {
@@ -392,7 +390,7 @@ void Studio::exr(const Request& request, const Client& client) {
         client.send_more({block.data(), static_cast<std::size_t>(in.gcount())});
 }
 
-void Studio::load_again() {
+void ViewSession::load_again() {
     try {
         const Model model = options_.load();
         auto paths = paths_of(model);
@@ -405,7 +403,7 @@ void Studio::load_again() {
     }
 }
 
-void Studio::set_error(const std::string& error) {
+void ViewSession::set_error(const std::string& error) {
     const std::lock_guard lock(current_mutex_);
     current_.error = error;
 }

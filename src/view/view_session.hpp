@@ -1,0 +1,112 @@
+// The session of `csgrt view`: one model and one Renderer, which several pages draw from. Each page has its own view
+// and looks.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <initializer_list>
+#include <list>
+#include <map>
+#include <mutex>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <csgrt/framebuffer.hpp>
+#include <csgrt/renderer.hpp>
+#include <csgrt/viewer.hpp>
+
+#include "view/page_request.hpp"
+
+namespace csgrt {
+
+/// The client waits for an answer that takes long to compute or to send.
+struct Client {
+    std::function<bool()> is_wanted;  ///< false ends the work
+    /// Begins an answer: sends `parts`. `later`: the number of bytes that calls of `send_more` will add.
+    std::function<void(std::initializer_list<std::string_view> parts, std::uint64_t later)> send;
+    std::function<void(std::string_view)> send_more;
+};
+
+/// The session answers the requests of pages. Any thread may call any function. page.html says which members a request
+/// and an answer have.
+class ViewSession {
+public:
+    /// Throws as Renderer does.
+    ViewSession(Model model, const Settings& settings, ViewerOptions options);
+
+    Json model() const;
+    Json status() const;
+    Json pick(const Request& request);
+    Json command(const Request& request) const;
+    /// Sends a region's index for each pixel, in 4 bytes. -1: no region is there; -2: several are.
+    void slice(const Request& request, const Client& client);
+    /// Sends a picture as an OpenEXR file. Throws Error if the file cannot be written.
+    void exr(const Request& request, const Client& client);
+    /// Sends a picture to a page: 4 bytes with the length of a JSON text, the text, and the pixels. A page's newest
+    /// request ends the page's earlier ones.
+    void frame(const Request& request, const Client& client);
+
+    /// Replaces the model by what ViewerOptions::load returns. If `load` throws, the old model stays, and status()
+    /// reports the error.
+    void load_again();
+    /// Keeps the model. status() reports the error.
+    void set_error(const std::string& error);
+
+private:
+    /// The model as it was loaded, and the models that pages' looks made of it.
+    struct Current {
+        Model base;
+        std::vector<std::string> paths = {};  ///< of its regions, in order
+        std::uint64_t generation = 1;
+        std::string error = {};
+        std::list<std::pair<std::string, Model>> edited = {};  ///< most recently used first, by the text of their looks
+    };
+    /// A model with a page's looks. `generation`: the loaded model that the indices of regions belong to.
+    struct EditedModel {
+        Model model;
+        std::uint64_t generation;
+    };
+    std::string picture_command(const PageView& page) const;
+    EditedModel model_with(const std::vector<Look>& looks);
+    /// Waits until nothing else draws, gives the Renderer the model and calls draw(). False: is_wanted() ended the wait
+    /// or the drawing.
+    bool with_renderer(const Model& model, const std::function<bool()>& is_wanted, const std::function<void()>& draw);
+
+    /// Memory for an answer while the answer is made and sent. All such memory together is at most most_answer_bytes,
+    /// except that one answer may always be made. Pixels go back to `pixel_pool_` for the next answer.
+    class AnswerMemory {
+    public:
+        /// Waits until there is enough memory. The object is false if is_wanted() ended the wait.
+        AnswerMemory(ViewSession& from, std::size_t bytes, const std::function<bool()>& is_wanted);
+        ~AnswerMemory();
+        AnswerMemory(const AnswerMemory&) = delete;
+        AnswerMemory& operator=(const AnswerMemory&) = delete;
+        explicit operator bool() const { return bytes_ > 0; }
+
+        std::vector<std::uint32_t> pixels = {};
+
+    private:
+        ViewSession& session_;
+        std::size_t bytes_ = 0;
+    };
+
+    const ViewerOptions options_;
+    const std::string methods_;  ///< the options of a command that draws alike; picks are in double precision
+    mutable std::mutex current_mutex_;
+    Current current_;
+    std::string device_;  ///< the device that drew last; current_mutex_ guards it, too
+    std::map<std::string, std::shared_ptr<std::atomic<std::uint64_t>>> pages_;
+    /// Pixels of finished answers. New memory would take the system longer than the picture takes a GPU.
+    std::vector<std::vector<std::uint32_t>> pixel_pool_;
+    std::size_t answer_bytes_ = 0;
+
+    std::timed_mutex exporting_, drawing_;
+    const std::function<bool()>* wanted_ = nullptr;  ///< whether what is drawn now is still wanted
+    Framebuffer framebuffer_;
+    Renderer renderer_;
+};
+
+}  // namespace csgrt
