@@ -1,12 +1,13 @@
-// Along a ray: one ray's part of the arrays, as an object. All in the header, as in new_file.hpp.
+// Along a ray: converts one ray's rows of the arrays to an object. The header holds all of the code, as new_file.hpp
+// does.
 #pragma once
 
 #include <csgrt/partitions.hpp>
 
 namespace csgrt {
 
-/// Converts the rows of one ray, from arrays that have all fields. A solid of -1, where a range cuts the row, becomes
-/// the largest number.
+/// Converts the rows of one ray, from arrays that have all fields. The solid -1, which stands where a range cuts a
+/// partition, becomes the largest number.
 inline RayPartitions along_ray(const Partitions& all, std::size_t ray) {
     RayPartitions one;
     for (auto i = static_cast<std::size_t>(all.ray_splits[ray]); i < static_cast<std::size_t>(all.ray_splits[ray + 1]);

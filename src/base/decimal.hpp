@@ -1,5 +1,5 @@
-// Decimal numbers, read the same way everywhere: in a scene of any format, in a file of rays, on the command line. The
-// value is the nearest double. A number too small for a double is 0, of its sign; a number too large is refused.
+// Decimal numbers: scenes of any format, files of rays and the command line all read them by these functions. The value
+// is the nearest double. A number too small for a double becomes 0 with its sign. A number too large is refused.
 #pragma once
 
 #include <algorithm>
@@ -14,8 +14,8 @@ namespace csgrt {
 
 enum class Decimal { number, no_number, not_finite, too_large };
 
-/// Whether a decimal out of the range of double is too small, not too large. Its first digit other than 0 and the
-/// exponent decide.
+/// Whether a decimal out of the range of double is too small, rather than too large. The position of its first digit
+/// other than 0 and its exponent decide.
 inline bool is_below_doubles(std::string_view digits) {
     if (digits.starts_with('-')) digits.remove_prefix(1);
     const std::size_t letter = std::min(digits.find_first_of("eE"), digits.size());
@@ -47,13 +47,13 @@ inline Decimal read_decimal(std::string_view text, double& value) {
     return std::isfinite(value) ? Decimal::number : Decimal::not_finite;
 }
 
-/// The number that the whole of `text` is; nothing if it is not a finite number.
+/// The whole of `text` as a number. Nothing if it is not a finite number.
 inline std::optional<double> finite_decimal(std::string_view text) {
     double value = 0;
     return read_decimal(text, value) == Decimal::number ? std::optional(value) : std::nullopt;
 }
 
-/// The fault of a number, in the same words for every reader.
+/// The message about a faulty number: every reader uses the same words.
 inline std::string decimal_fault(Decimal found, const std::string& text) {
     if (found == Decimal::too_large) return "the number " + text + " is too large for a double";
     return "'" + text + (found == Decimal::not_finite ? "' is not a finite number" : "' is not a number");

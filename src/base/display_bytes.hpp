@@ -13,7 +13,8 @@ namespace csgrt {
 
 inline constexpr int last_byte = 255;
 
-/// Converts linear light to the nearest byte of sRGB. The bounds between bytes are decoded once, so nothing is encoded.
+/// Converts linear light to the nearest byte of sRGB. The light between each two bytes is computed once, so a
+/// conversion only searches a table.
 class SrgbBytes {
 public:
     SrgbBytes() {
@@ -33,19 +34,19 @@ public:
     }
 
 private:
-    static constexpr int cells = 4096;        // so many that few bounds lie in one cell
-    std::array<double, last_byte + 1> ends_;  // one a byte: the light at which the next byte begins; the last is over 1
+    static constexpr int cells = 4096;        // many, so that few bounds lie in one cell
+    std::array<double, last_byte + 1> ends_;  // for each byte: the light where the next byte begins; the last is over 1
     std::array<unsigned char, cells> first_;  // one for each equal part of 0 to 1: the byte at its lower bound
 };
 
-/// The nearest byte to a display value, or to linear light, which is encoded as sRGB; 0 if the value is not a number.
+/// The byte nearest to a display value, or to the sRGB value of linear light. 0 if the value is not a number.
 inline unsigned char display_byte(double value, bool is_display_value) {
     static const auto* const of_light = new SrgbBytes;  // never destroyed: threads use it while the process ends
     if (!is_display_value) return (*of_light)(value);
     return static_cast<unsigned char>(value > 0 ? std::min(value, 1.0) * last_byte + 0.5 : 0);
 }
 
-/// The least float from 0 to 1 that a byte above this one shows.
+/// The least float from 0 to 1 whose display byte is above `byte`.
 inline float display_end(int byte, bool is_display_value) {
     std::uint32_t low = 0, high = std::bit_cast<std::uint32_t>(1.0f);  // positive floats are ordered as their bits
     while (low < high) {

@@ -1,6 +1,6 @@
-// Floating-point state: how a thread's processor rounds, where it traps, whether it takes tiny numbers for 0. csgrt's
-// bits depend on it, but it belongs to the host. So each public function that computes sets the state that csgrt needs,
-// and restores the host's. All in the header, as in new_file.hpp.
+// Floating-point state: how a thread's processor rounds, when it traps, whether it takes tiny numbers for 0. The bits
+// of csgrt's answers depend on the state, but the host owns it. So each public function that computes sets the state
+// that csgrt needs, and restores the host's. The header holds all of the code, as new_file.hpp does.
 #pragma once
 
 #include <cfenv>
@@ -9,8 +9,8 @@
 
 namespace csgrt {
 
-/// Sets the default of IEEE 754 for its thread while it lives: to nearest, without traps. Then it restores the former
-/// state, and flags that were raised meanwhile are gone.
+/// Sets the default state of IEEE 754 for its thread while it lives: rounding to nearest, without traps. The destructor
+/// restores the former state; flags that were raised meanwhile are lost.
 class FloatingPoint {
 public:
     FloatingPoint() noexcept : FloatingPoint(FE_DFL_ENV) {}
@@ -18,8 +18,8 @@ public:
     FloatingPoint& operator=(const FloatingPoint&) = delete;
     ~FloatingPoint() { std::fesetenv(&before_); }
 
-    /// Wraps a function of the host, so that it runs with the host's former state, on any thread. Both the object and
-    /// the function must outlive the result.
+    /// Wraps a function of the host, so that it runs with the host's former state, on any thread. This object and
+    /// `function` must outlive the result.
     template <class Result, class... Arguments>
     std::function<Result(Arguments...)> of_host(const std::function<Result(Arguments...)>& function) const {
         if (!function) return {};

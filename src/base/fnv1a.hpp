@@ -1,4 +1,4 @@
-// FNV-1a: a hash, one number for many bytes.
+// FNV-1a: a hash function, which makes one number of many bytes.
 #pragma once
 
 #include <cstddef>
@@ -12,8 +12,8 @@
 
 namespace csgrt {
 
-/// FNV-1a by words of 8 bytes. The high bits of each product are folded into the low ones, which they would never
-/// affect otherwise.
+/// Computes the hash by words of 8 bytes. The high half of each product is folded into the low half, because otherwise
+/// high bits would never affect low ones.
 class Fnv1a {
 public:
     template <class T>

@@ -1,4 +1,4 @@
-// Identity bit by bit, of numbers and of answers for one ray. All in the header, as in new_file.hpp.
+// Identity bit by bit, of numbers and of answers for one ray. The header holds all of the code, as new_file.hpp does.
 #pragma once
 
 #include <algorithm>

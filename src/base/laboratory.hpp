@@ -10,12 +10,12 @@
 
 namespace csgrt {
 
-/// Methods for quartic equations, those of tor, eto and cones with two tapers.
+/// Methods for the quartic equations of the solids tor and eto and of cones with two tapers.
 enum class Quartic {
-    bracketed,            ///< origin at the ray's point closest to the solid; roots lie between the derivative's
-    bracketed_unshifted,  ///< the same, with the ray's own origin
+    bracketed,  ///< brackets between the derivative's roots; the ray's origin is first moved close to the solid
+    bracketed_unshifted,  ///< as `bracketed`, but with the ray's own origin
     ferrari,              ///< closed form
-    yuksel,               ///< brackets and Newton's method to a stated error (Yuksel 2022)
+    yuksel,               ///< brackets, and Newton's method until a chosen error (Yuksel 2022)
 };
 inline constexpr std::pair<std::string_view, Quartic> quartic_names[] = {
     {"bracketed", Quartic::bracketed},
@@ -24,19 +24,19 @@ inline constexpr std::pair<std::string_view, Quartic> quartic_names[] = {
     {"yuksel", Quartic::yuksel},
 };
 
-/// The methods of a Renderer for measurements. The defaults are those of every user.
+/// The methods that a measurement may choose for a Renderer. Every user has the defaults.
 struct Laboratory {
     Quartic quartic = Quartic::bracketed;
     bool contraction = false;   ///< the device's compiler may round a product and a sum as one (fma)
-    bool single_world = false;  ///< Precision::single in the model's coordinates, without the world in double
-    const struct Evaluation* evaluation = nullptr;  ///< in place of kernel 4 (pipeline/passes/partitions.hpp)
+    bool single_world = false;  ///< Precision::single also for the world's coordinates, which are in double otherwise
+    const struct Evaluation* evaluation = nullptr;  ///< replaces kernel 4 (pipeline/passes/partitions.hpp)
 };
 
 inline const Laboratory& laboratory(const Settings& settings) {
     static const Laboratory defaults;
     return settings.laboratory ? *settings.laboratory : defaults;
 }
-/// The settings with these methods.
+/// Adds the methods to settings.
 inline Settings with_methods(const Laboratory& methods, Settings settings = {}) {
     if (methods.single_world) settings.precision = Precision::single;
     settings.laboratory = std::make_shared<const Laboratory>(methods);

@@ -1,5 +1,5 @@
-// New file: a file that is written whole or not at all, wherever its name leads. All in the header: the library, the
-// component for pictures and the command share it, and none of them sees more of another than its interface.
+// New file: a file that is written whole or not at all. The header holds all of the code, because the library, the
+// component for pictures and the command share it, and each sees only the interface of the others.
 #pragma once
 
 #include <algorithm>
@@ -25,7 +25,7 @@
 
 namespace csgrt {
 
-/// Flags of open files: processes that this one starts do not inherit them, and Windows does not change line ends.
+/// Flags of open files: child processes do not inherit the files, and Windows does not change line ends.
 #ifdef _WIN32
 inline constexpr int open_flags = _O_NOINHERIT | _O_BINARY;
 inline int duplicate(int file) { return _dup(file); }
@@ -34,13 +34,13 @@ inline constexpr int open_flags = O_CLOEXEC;
 inline int duplicate(int file) { return fcntl(file, F_DUPFD_CLOEXEC, 3); }
 #endif
 
-/// The target of a name, over links: the file that is written, so that a link stays a link.
+/// The file that a name leads to over links. This file is written, so that a link stays a link.
 struct Target {
     std::filesystem::path path;
     /// Whether the target is a device, a pipe or an open file (/dev/stdout, /dev/fd/3): nothing can be renamed onto
     /// these.
     bool direct = false;
-    int descriptor = -1;   ///< the open file, if the target is one of this process
+    int descriptor = -1;   ///< the target's, if it is a file that this process has open
     bool endless = false;  ///< the links lead in a circle
 };
 
@@ -72,10 +72,10 @@ inline Target target_of(const std::string& name) {
     return target;
 }
 
-/// Writes a file under another name beside its target until keep(), and removes it if keep() is never called: readers
-/// find the old file or the new one, whole. A target that nothing can be renamed onto is written directly. The file is
-/// locked while it is written, so that a later writer of the same target knows what a killed process left. Throws Error
-/// (file).
+/// Writes a temporary file beside its target. keep() renames it to the target; without keep(), the destructor removes
+/// it. So readers find the whole old file or the whole new one. A target that nothing can be renamed onto is written
+/// directly. The temporary file is locked while it is written: a later writer of the same target removes unlocked ones,
+/// which killed processes left. Throws Error (file).
 class NewFile {
 public:
     /// Creates the file. `on_signal` is called when a signal ends a wait, and may throw; if it does not, the wait goes
@@ -105,13 +105,14 @@ public:
             if (file_ < 0 && errno != EEXIST) fail("cannot create", errno);
             if (file_ < 0) continue;
             if (!lock())
-                close(std::exchange(file_, -1));  // another process took it for a dead process's
+                close(std::exchange(file_, -1));  // another process removed it, because it seemed to be left by a
+                                                  // killed process
             else
                 temporary_ = std::move(temporary);
         }
         constexpr int most = 8;  // writers of the same target at once
         for (; number < most; ++number) remove_if_left(beside(target.path, number));
-        // The permissions stay, as if an editor had written the file.
+        // The new file gets the old file's permissions, as if an editor had written it.
         if (replaces) fs::permissions(temporary_, old.permissions() & fs::perms::all, error);
     }
     NewFile(const NewFile&) = delete;
@@ -149,7 +150,7 @@ public:
     }
 
 private:
-    /// The delegated constructor: when the other one throws, the destructor tidies up.
+    /// The other constructor delegates to this one, so that the destructor tidies up if the other one throws.
     NewFile(void (*on_signal)(), const std::string& name) : name_(name), on_signal_(on_signal) {}
 
     static std::string words(int code) { return code == EBADF ? "it is closed" : std::strerror(code); }
@@ -158,8 +159,8 @@ private:
     }
     [[noreturn]] void fail(const char* what, int code) const { refuse(name_, what, words(code)); }
 
-    /// A name beside the target. The numbers are for processes that write the same target at once. The name is no
-    /// longer than folders allow.
+    /// A name for the temporary file, cut to the length that folders allow. `number` tells apart processes that write
+    /// the same target at once.
     static std::string beside(const std::filesystem::path& target, int number) {
         constexpr std::size_t longest = 200;
         const std::string name = target.filename().string().substr(0, longest) + "." + std::to_string(number) + ".part";
@@ -170,8 +171,8 @@ private:
     bool lock() { return true; }
     static void remove_if_left(const std::string&) {}
 #else
-    /// Locks the file. False if it has been removed since it was made. Some file systems have no locks: there left
-    /// files stay.
+    /// Locks the file. False if the file was removed meanwhile. On file systems without locks, files of killed
+    /// processes stay.
     bool lock() {
         struct stat status;
         if (flock(file_, LOCK_EX | LOCK_NB) != 0) return errno != EWOULDBLOCK;
@@ -180,7 +181,7 @@ private:
         return true;
     }
 
-    /// Removes a file that nobody writes.
+    /// Removes a temporary file if no process writes it.
     static void remove_if_left(const std::string& temporary) {
         const int file = open(temporary.c_str(), O_WRONLY | O_NONBLOCK | O_NOFOLLOW | open_flags);
         if (file < 0) return;

@@ -20,21 +20,21 @@ namespace csgrt {
 /// The number of processors that this process may use.
 inline unsigned processor_count() { return std::max(1u, std::thread::hardware_concurrency()); }
 
-/// The number of threads. 0 stands for as many as this thread may use.
+/// The number of threads to use. `wanted` = 0 stands for all that this thread may use.
 inline unsigned thread_count(unsigned wanted) {
     if (wanted == 0) wanted = threads_allowed;
     return wanted != 0 ? wanted : processor_count();
 }
 
-/// Runs work() on this thread and on up to threads - 1 others of the pool (Pool::run). It must not throw.
+/// Runs work() on this thread and on up to threads - 1 others of the pool (Pool::run). work() must not throw.
 template <class Work>
 void on_threads(unsigned threads, const Work& work) {
     threads > 1 ? Pool::own().run(threads, std::cref(work)) : work();
 }
 
-/// Calls work(first, last, chunk) for chunk = 0, 1, ...: chunks of `size` numbers each that make up 0 ... count - 1, in
-/// any order and several at once. If some calls throw, the exception of the foremost chunk is thrown, and no more
-/// chunks begin.
+/// Calls work(first, last, chunk) for chunk = 0, 1, ...: the chunks divide the numbers 0 ... count - 1 into ranges of
+/// `size`. Calls are in any order, several at once. If calls throw, no more chunks begin, and the first chunk's
+/// exception is passed on.
 template <class Work>
 void for_chunks(std::size_t count, std::size_t size, unsigned threads, const Work& work) {
     const std::size_t chunks = (count + size - 1) / size;
@@ -59,8 +59,8 @@ void for_chunks(std::size_t count, std::size_t size, unsigned threads, const Wor
     if (thrown) std::rethrow_exception(thrown);
 }
 
-/// Reserves memory for `count` elements and has all threads side by side touch its pages, which the system then clears.
-/// For large memory one thread alone would spend much of its time on this.
+/// Reserves memory for `count` elements. All threads touch its pages in parallel, because the system clears a page at
+/// the first touch. For large memory, one thread alone would spend much of its time on this.
 template <class T>
 void reserve_cleared(std::vector<T>& all, std::size_t count) {
     constexpr std::size_t page = 4096, piece = std::size_t{1} << 22;
@@ -68,7 +68,7 @@ void reserve_cleared(std::vector<T>& all, std::size_t count) {
     const std::size_t bytes = (all.capacity() - all.size()) * sizeof(T);
     if (bytes < 2 * piece) return;
     auto* const memory =
-        reinterpret_cast<volatile unsigned char*>(all.data() + all.size());  // no element lives there yet
+        reinterpret_cast<volatile unsigned char*>(all.data() + all.size());  // no element is constructed there yet
     for_chunks(bytes, piece, 0, [memory](std::size_t first, std::size_t last, std::size_t) {
         for (std::size_t i = first; i < last; i += page) memory[i] = 0;
     });
@@ -85,8 +85,8 @@ void resize_cleared(SharedVector<T>& all, std::size_t count) {
     resize_cleared(all.own(), count);
 }
 
-/// Calls make(first, last) for such chunks, several at once, and take() with the results, one at a time and in order,
-/// as soon as the results before are taken.
+/// Calls make(first, last) for the chunks of for_chunks(), several at once. Calls take(result) in the order of chunks,
+/// one at a time, as soon as a result is there.
 template <class Make, class Take>
 void for_chunks_in_order(std::size_t count, std::size_t size, unsigned threads, const Make& make, const Take& take) {
     std::mutex mutex;
@@ -98,7 +98,7 @@ void for_chunks_in_order(std::size_t count, std::size_t size, unsigned threads, 
         std::unique_lock lock(mutex);
         made[chunk].emplace(std::move(mine));
         if (is_taking) return;
-        is_taking = true;  // until there is no next one; if take() throws, for ever
+        is_taking = true;  // until the next result is missing; for ever if take() throws
         for (; next < made.size() && made[next]; ++next) {
             auto it = std::exchange(made[next], std::nullopt);
             lock.unlock();

@@ -1,5 +1,5 @@
-// Pool: the process's threads for computing. They are started when several have work, and wait between works for the
-// next, whoever calls. All in the header, as in process.hpp.
+// Pool: the process's threads for computing. A thread is started when a call first needs it, and then waits for further
+// calls. The header holds all of the code, as process.hpp does.
 #pragma once
 
 #include <algorithm>
@@ -40,9 +40,9 @@ public:
         begun_.notify_all();
     }
 
-    /// Calls work() on this thread, and on `threads` - 1 others that become free before it returns here. Returns when
-    /// all calls have returned. work() must not throw. If the system gives fewer threads, these do the work. Several
-    /// calls at a time, also within a work, share the threads.
+    /// Calls work() on this thread, and on up to `threads` - 1 threads of the pool that become free meanwhile. Returns
+    /// when all these calls have returned. work() must not throw. run() may be called by several threads and within
+    /// work(): all calls share the pool's threads.
     void run(unsigned threads, const std::function<void()>& work) {
         if (threads <= 1) return work();
         Call call{work, threads - 1};
@@ -62,7 +62,7 @@ public:
 private:
     struct Call {
         const std::function<void()>& work;
-        unsigned wanted;  ///< threads that it still wants
+        unsigned wanted;  ///< number of further threads that the call wants
         unsigned threads_allowed = csgrt::threads_allowed;
         unsigned running = 0;
         std::condition_variable ended = {};
@@ -73,7 +73,7 @@ private:
         for (;;) {
             begun_.wait(lock, [this] { return stop_ || !calls_.empty(); });
             if (stop_) return;
-            Call& call = *calls_.back();  // the innermost one, perhaps
+            Call& call = *calls_.back();  // the latest call, perhaps from within another call's work
             ++call.running;
             if (--call.wanted == 0) calls_.pop_back();
             lock.unlock();

@@ -1,18 +1,19 @@
-// Prefetch: loads memory ahead, where the next data lie anywhere and waiting for them would take most of the time.
+// Prefetch: loads memory into the cache ahead, where the addresses are scattered and waiting would take most of the
+// time.
 #pragma once
 
 #include <cstddef>
 
 namespace csgrt {
 
-/// Prefetches the line of an address.
+/// Prefetches the cache line of an address.
 inline void prefetch_line([[maybe_unused]] const void* memory) {
 #if defined(__GNUC__)
     __builtin_prefetch(memory);
 #endif
 }
 
-/// Prefetches all lines of an object.
+/// Prefetches all cache lines of an object.
 template <class T>
 void prefetch_whole(const T& object) {
     constexpr std::size_t line = 64;

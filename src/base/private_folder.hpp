@@ -13,7 +13,7 @@ namespace csgrt {
 /// A temporary folder, removed with its contents when the object is destroyed.
 class PrivateFolder {
 public:
-    /// Makes a folder below that for temporary files. Throws Error (file).
+    /// Makes a folder in the system's folder for temporary files. Throws Error (file).
     PrivateFolder() {
         std::error_code error;
         path_ = (std::filesystem::temp_directory_path(error) / "csgrt-XXXXXX").string();

@@ -1,5 +1,5 @@
-// Process: which process this is. A fork makes another process, which has the memory of the first, but only the forking
-// thread of its threads. All in the header, as in new_file.hpp.
+// Process: tells a process from its children by fork(). A child has a copy of the memory, but only the thread that
+// forked. The header holds all of the code, as new_file.hpp does.
 #pragma once
 
 #include <atomic>
@@ -18,8 +18,9 @@ inline std::atomic<unsigned> forks{0};
 /// A number that differs in a child of fork() from its parent's. Any thread.
 inline unsigned process_number() noexcept { return forks.load(std::memory_order_relaxed); }
 
-/// Deletes objects that this process made. Objects from a parent are left alone, which costs only addresses: threads
-/// that do not exist here cannot be waited for, and a driver does not know this process.
+/// Deletes objects that this process made. A parent's objects are never deleted in a child: their threads, which a
+/// destructor would wait for, do not exist here, and a driver does not know this process. Such objects cost only
+/// addresses.
 struct DeleteOwn {
     unsigned process = process_number();
     template <class T>
@@ -28,7 +29,7 @@ struct DeleteOwn {
     }
 };
 
-/// The process that first uses a library whose threads, once started, do not exist in children. Any thread.
+/// Remembers the process that first uses a library with threads of its own, which do not exist in children. Any thread.
 class FirstUser {
 public:
     bool is_this_process() {

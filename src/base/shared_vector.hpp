@@ -9,8 +9,8 @@
 
 namespace csgrt {
 
-/// A std::vector whose copies share the elements until one of them changes its own. The holder of the only copy may
-/// write to different elements from several threads.
+/// A std::vector whose copies share the elements until a copy is changed. The holder of the only copy may write to
+/// different elements from several threads.
 template <class T>
 class SharedVector {
 public:
@@ -25,7 +25,7 @@ public:
         static const Vector* const none = new Vector;  // never destroyed: threads read it while the process ends
         return values_ ? *values_ : *none;
     }
-    /// The elements for changing: no other copy shares them any more.
+    /// The elements, to be changed. If another copy shares them, they are copied first.
     Vector& own() {
         if (!values_)
             values_ = std::make_shared<Vector>();
@@ -36,7 +36,7 @@ public:
     operator const Vector&() const noexcept { return get(); }
     operator Vector&() { return own(); }
 
-    /// Whether both share the same elements.
+    /// Whether the two vectors share their elements.
     bool shares(const SharedVector& other) const noexcept { return values_ == other.values_; }
 
     std::size_t size() const noexcept { return get().size(); }

@@ -1,5 +1,4 @@
-// Threads of csgrt: they compute with csgrt's floating-point state, whatever state a new thread has, and leave the
-// host's signals to the host's threads.
+// Threads of csgrt: they compute with csgrt's floating-point state, and leave the host's signals to the host's threads.
 #pragma once
 
 #include <cstddef>
@@ -19,8 +18,8 @@
 
 namespace csgrt {
 
-/// Blocks signals from outside for its thread while it lives: they go to another thread, or wait. Threads that are
-/// started meanwhile, also by a driver, never get any.
+/// Blocks signals from outside for its thread while it lives. Such a signal goes to another thread, or waits. Threads
+/// that are started meanwhile, also by a driver, block these signals for ever.
 class BlockedSignals {
 public:
 #ifdef _WIN32
@@ -44,12 +43,11 @@ private:
 #endif
 };
 
-/// The number of threads that the work of this thread may use, with itself (Settings::threads); 0: one for each
+/// The number of threads that this thread's work may use, this thread included (Settings::threads). 0: one for each
 /// processor.
 inline constinit thread_local unsigned threads_allowed = 0;
 
-/// Sets this number while it lives. Threads that are started meanwhile, and helping threads of the pool, have the same
-/// limit.
+/// Sets `threads_allowed` while it lives, also for Threads started meanwhile and for threads of the pool that help.
 class AllowedThreads {
 public:
     explicit AllowedThreads(unsigned count) noexcept : before_(std::exchange(threads_allowed, count)) {}
@@ -81,7 +79,7 @@ private:
     Thread(Work work, const BlockedSignals&) : std::thread(in_own_state(std::move(work))) {}
 };
 
-/// Threads that are joined at the end, whatever ends it.
+/// Threads that the destructor joins.
 class JoinedThreads {
 public:
     JoinedThreads() = default;
@@ -107,7 +105,8 @@ private:
     std::vector<Thread> threads_;
 };
 
-/// std::async with such a thread. By default the waiting thread does the work if no thread is available.
+/// std::async in csgrt's floating-point state and with signals blocked. By default, if no thread is available, the
+/// thread that waits for the result does the work.
 template <class Work>
 auto start_async(Work work, std::launch how = std::launch::async | std::launch::deferred) {
     const BlockedSignals blocked;

@@ -26,7 +26,7 @@ void Watch::over(const Progress& progress, const std::function<void(Watch&)>& wo
         for (auto next = Clock::now() + period; end.wait_until(next) == std::future_status::timeout;
              next = std::max(next + period, Clock::now()))
             if (!watch.stop_) watch.stop_ = !progress(watch.done());
-    } catch (...) {  // the end of `end` waits for the work
+    } catch (...) {  // the destructor of `end` waits for the work
         watch.stop_ = true;
         throw;
     }

@@ -10,7 +10,7 @@ namespace {
 struct Failure {
     std::vector<Diagnostic> diagnostics = {};
     std::string text = {};
-    const char* shown = "";  ///< `text`, or where there is no memory for one, a constant
+    const char* shown = "";  ///< `text`, or a constant if there is no memory for `text`
 };
 thread_local Failure last;
 
@@ -136,7 +136,7 @@ const char* csgrt_last_error(void) { return last.shown; }
 size_t csgrt_last_diagnostic_count(void) { return last.diagnostics.size(); }
 
 csgrt_status csgrt_last_diagnostic(size_t index, csgrt_diagnostic* diagnostic) {
-    // What it tells of stays, so a wrong index is no failure to be kept.
+    // A wrong index does not become the last error: the earlier error, which the caller asks about, stays.
     if (index >= last.diagnostics.size() || !diagnostic) return CSGRT_ERROR_USAGE;
     try {
         const Diagnostic& from = last.diagnostics[index];

@@ -1,4 +1,4 @@
-// What the functions of csgrt.h share: failures, arguments, and structs that grow from version to version.
+// The functions of csgrt.h share this code: failures, arguments, and structs that grow from version to version.
 #pragma once
 
 #include <cstring>
@@ -13,24 +13,25 @@
 #include <csgrt/csgrt.h>
 #include <csgrt/csgrt.hpp>
 
-// ---- The handles. A reader of a scene changes none of it, so the names are kept by those who add. ----
+// ---- The handles ----
 struct csgrt_scene {
     csgrt::Scene scene = {};
-    std::unordered_set<std::string> names = {};  ///< of the objects, once one was added
+    std::unordered_set<std::string> names = {};  ///< of the objects; filled by the first call that adds an object, as
+                                                 ///< reading a scene must not change it
 };
 struct csgrt_model {
     csgrt::Model model;
 };
 struct csgrt_partitions {
     csgrt::Partitions own = {};
-    const csgrt::Partitions* shown = &own;  ///< a batch is the renderer's
+    const csgrt::Partitions* shown = &own;  ///< for a batch, the renderer's own arrays
 };
 struct csgrt_image {
     csgrt::Framebuffer frame = {};
 };
 struct csgrt_renderer {
     csgrt::Renderer renderer;
-    // Answers on their way into the caller's memory.
+    // Answers, before they are copied into the caller's memory.
     csgrt::Hits hits = {};
     csgrt::Array<std::uint8_t> flags = {};
     csgrt::Array<std::int32_t> ids = {};
@@ -56,14 +57,14 @@ csgrt_status call(Body body) noexcept {
 
 [[noreturn]] void refuse(const std::string& message, std::string suggestion = {});
 
-/// What a pointer points at. Throws if it is NULL.
+/// The object of a pointer. Throws if the pointer is NULL.
 #define CSGRT_NEED(argument) csgrt::c::needed(argument, #argument)
 template <class T>
 T& needed(T* argument, const char* name) {
     if (!argument) refuse(std::string(name) + " is NULL");
     return *argument;
 }
-/// `count` things. Throws if there is no pointer to them.
+/// An array of `count` elements. Throws if the pointer is NULL and `count` is not 0.
 template <class T>
 std::span<T> needed(T* first, std::size_t count, const char* name) {
     if (count > 0) needed(first, name);
@@ -72,7 +73,7 @@ std::span<T> needed(T* first, std::size_t count, const char* name) {
 inline const char* text_or_empty(const char* text) { return text ? text : ""; }
 std::vector<std::string> texts(const char* const* first, std::size_t count, const char* name);
 
-/// An earlier version of a struct ends before a member of a later one, never within a pointer.
+/// The size of the caller's struct. Throws unless it can be a version's size: earlier versions lack the last members.
 template <class T>
 std::size_t known_size(const T& given, const char* name) {
     if (given.size < sizeof(std::size_t) || given.size > sizeof(T) || given.size % alignof(T) != 0) {
@@ -83,13 +84,13 @@ std::size_t known_size(const T& given, const char* name) {
     }
     return given.size;
 }
-/// The caller's struct. The members that its version does not have are the defaults.
+/// The caller's struct. Members that the caller's version lacks have the defaults.
 template <class T>
 T read(const T* given, T defaults, const char* name) {
     std::memcpy(&defaults, given, known_size(needed(given, name), name));
     return defaults;
 }
-/// Fills the caller's struct, as much of it as its version has.
+/// Fills the caller's struct with the members that the caller's version has.
 template <class T>
 void fill(T* wanted, T values, const char* name) {
     values.size = known_size(needed(wanted, name), name);
@@ -104,7 +105,7 @@ const auto& item(const List& list, std::size_t index) {
     return list[index];
 }
 
-/// A call that makes a handle of what `body` returns. The handle is NULL until then.
+/// A call that makes a handle of the result of `body`. If it fails, the handle is NULL.
 template <class Handle, class Body>
 csgrt_status make(Handle** handle, Body body) noexcept {
     return call([&] {
@@ -113,7 +114,7 @@ csgrt_status make(Handle** handle, Body body) noexcept {
     });
 }
 
-/// The value of an enum class whose last one is `last`.
+/// An enum class's value by its number, 0 to `last`.
 template <class Enum>
 Enum choice(int value, Enum last, const char* name) {
     if (value < 0 || value > static_cast<int>(last)) {

@@ -1,5 +1,5 @@
-// C's structs by their descriptions (form/requests.hpp, form/answers.hpp): their members stand in the order of its
-// lines, behind the size of those that may grow.
+// Conversion of C's structs by their descriptions (form/requests.hpp, form/answers.hpp). A struct's members have the
+// order of the description's lines. A struct that may grow has its size before them.
 #pragma once
 
 #include <cstddef>
@@ -16,7 +16,8 @@
 
 namespace csgrt::c {
 
-/// The members of a C struct, one after the other, each where its alignment has it. `Byte`: const where they are read.
+/// Reads or writes the members of a C struct one after the other, at the offsets that their alignments give. `Byte`:
+/// const for reading.
 template <class Byte>
 class CMembers {
 public:
@@ -34,7 +35,7 @@ public:
     void put(const T& value) {
         std::memcpy(place<T>(), &value, sizeof(T));
     }
-    /// Throws unless the struct ends behind the last member that was asked for.
+    /// Throws unless the last member that was read or written is the struct's last.
     void expect_end(const char* name) const {
         if ((at_ + alignment_ - 1) / alignment_ * alignment_ != size_)
             throw std::logic_error(std::string(name) + ": the description has other members");
@@ -88,7 +89,7 @@ void read_member(CMembers<const std::byte>& members, const Member& member, Value
     }
 }
 
-/// The C++ struct of a C one, of this version (see read()).
+/// Converts a C struct of this version (see read()) to the C++ struct.
 template <class S, class C>
 S described(const C& given, const char* name) {
     S all;
@@ -118,7 +119,7 @@ void write_member(CMembers<std::byte>& members, const Value& value) {
     }
 }
 
-/// The C struct of a C++ one, whose texts and points it shows.
+/// Converts a C++ struct to the C struct, which points to the C++ struct's texts and points.
 template <class C, class S>
 C shown(const S& of) {
     C all;

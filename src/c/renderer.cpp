@@ -11,7 +11,7 @@ struct csgrt_verifier {
 
 namespace {
 
-thread_local std::vector<DeviceInfo> last_devices;  // by the last csgrt_devices()
+thread_local std::vector<DeviceInfo> last_devices;  // the result of the last csgrt_devices()
 
 }  // namespace
 

@@ -22,7 +22,7 @@ void add(csgrt_scene& to, Object object) {
     scene.objects.push_back(std::move(object));
 }
 
-// ---- A solid is written as JSON and read: its types and members are described, and checked, in one place ----
+// ---- Solids, which go through JSON: the reader of JSON describes and checks all types and members ----
 
 void put_text(std::string& json, std::string_view text) {
     constexpr char digits[] = "0123456789abcdef";
@@ -123,7 +123,7 @@ csgrt_status csgrt_scene_add_solid(csgrt_scene* scene, const char* name, const c
         Scene read = parse_scene(json + "}}}", name);
         if (read.objects.size() != 1) refuse("a member's JSON ends the solid '" + std::string(name) + "'");
         Solid& solid = std::get<Solid>(read.objects[0]);
-        solid.place = {};  // it was read from no file
+        solid.place = {};  // the solid was not read from a file
         add(CSGRT_NEED(scene), std::move(solid));
     });
 }
@@ -207,7 +207,8 @@ csgrt_status csgrt_scene_set_info(csgrt_scene* scene, const csgrt_scene_info* in
     return call([&] {
         const csgrt_scene_info i = read(info, csgrt_scene_info CSGRT_SCENE_INFO, "info");
         Scene& s = CSGRT_NEED(scene).scene;
-        std::string title = text_or_empty(i.title), units = text_or_empty(i.units);  // they may be the scene's own
+        std::string title = text_or_empty(i.title), units = text_or_empty(i.units);  // copied first, because the
+                                                                                     // pointers may lead into the scene
         s.title = std::move(title);
         s.units = std::move(units);
         s.unit_length = i.unit_length;

@@ -20,7 +20,7 @@ constexpr const char* scene_help =
 constexpr std::pair<std::string_view, const char*> formats[] = {{"exr", "exr"}, {"png", "png"}};
 constexpr std::pair<std::string_view, RowFormat> row_formats[] = {
     {"text", RowFormat::text}, {"csv", RowFormat::csv}, {"binary", RowFormat::binary}, {"npy", RowFormat::npy}};
-constexpr std::uint64_t most_sampled = 10'000'000;  ///< rays are kept in memory; a file may hold more
+constexpr std::uint64_t most_sampled = 10'000'000;  ///< the rays of a sample are all in memory; a file may hold more
 constexpr double unlimited = std::numeric_limits<double>::infinity();
 
 [[noreturn]] void fail(std::string message, std::string suggestion) {
@@ -56,7 +56,7 @@ void define_settings(Options& options, Settings& settings) {
     for (const auto& entry : tolerance_names) tolerance.words.push_back(entry.first);
 }
 
-/// Of commands that compute either on a device or on the reference.
+/// Defines the options of commands that compute either on a device or on the reference.
 void define_either(Options& options, Settings& settings) {
     define_settings(options, settings);
     define_members(options, settings, form::Concern::either);
@@ -73,7 +73,7 @@ Option& define_size(Options& options, int& width, int& height) {
                          "a size such as 1024 or 1920x1080, each side from 1 to " + std::to_string(max_side));
 }
 
-/// Of those that concern one region the last counts, so all are one list.
+/// Defines the options of looks. All go into one list in their order, because the last look of a region counts.
 void define_looks(Options& options, std::vector<Look>& looks) {
     const auto state = [&](const char* name, const char* help, State value) {
         options.each(
@@ -274,7 +274,7 @@ constexpr Entry entries[] = {
     entry<InfoArguments>("info", "csgrt info SCENE [OBJECT...]", "show what a scene holds", info_notes),
     entry<ConvertArguments>("convert", "csgrt convert IN OUT.json", "rewrite a scene as JSON", convert_notes),
 };
-constexpr const Entry& render_entry = entries[0];  ///< its name may be left out
+constexpr const Entry& render_entry = entries[0];  ///< the command's name may be left out
 
 const Entry* find_entry(const std::string& name) {
     auto found = std::find_if(std::begin(entries), std::end(entries), [&](const Entry& e) { return name == e.name; });

@@ -17,7 +17,7 @@ std::string variable(const char* name) {
     return value ? value : "";
 }
 
-/// PoCL's cache folder, by PoCL's own order: POCL_CACHE_DIR, XDG_CACHE_HOME, HOME.
+/// PoCL's cache folder, from the variables that PoCL reads, in its order: POCL_CACHE_DIR, XDG_CACHE_HOME, HOME.
 fs::path cache_folder() {
     if (const std::string folder = variable("POCL_CACHE_DIR"); !folder.empty()) return folder;
     if (const std::string folder = variable("XDG_CACHE_HOME"); !folder.empty())
@@ -27,7 +27,8 @@ fs::path cache_folder() {
     return {};
 }
 
-/// Can the folder be written? The test writes a file: permissions do not show full or read-only file systems.
+/// Can the folder be written? The test writes a file: permissions do not tell whether the file system is full or
+/// read-only.
 bool can_write(const fs::path& folder) {
     if (folder.empty()) return false;
     std::error_code error;
@@ -51,7 +52,7 @@ fs::path& temporary_folder() {
 
 void ensure_cache_folder() {
     if (const fs::path folder = cache_folder(); can_write(folder)) {
-        setenv("POCL_CACHE_DIR", folder.c_str(), 1);  // PoCL takes an empty variable for a name
+        setenv("POCL_CACHE_DIR", folder.c_str(), 1);  // PoCL would take an empty variable for a name
         return;
     }
     std::error_code error;

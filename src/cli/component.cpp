@@ -10,8 +10,7 @@
 namespace csgrt::cli {
 
 void* open_component(const char* library) {
-    // The path is that of libcsgrt, which is loaded already: a sanitizer's dlopen does not use this program's search
-    // path.
+    // The folder is found by the loaded libcsgrt, because a sanitizer's dlopen does not use this program's search path.
     Dl_info core;
     std::filesystem::path path;
     if (dladdr(reinterpret_cast<const void*>(&version), &core))

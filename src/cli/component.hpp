@@ -1,10 +1,10 @@
-// Component: a part of csgrt that a command loads when it needs it.
+// Component: a library of csgrt that a command loads only when it needs the library.
 #pragma once
 
 namespace csgrt::cli {
 
-/// Opens the library of this name in the folder of libcsgrt, or wherever the system finds it, as dlopen() does; null:
-/// dlerror() has the reason.
+/// Opens `library` as dlopen() does, from libcsgrt's folder or else from where the system finds it. Null: dlerror()
+/// tells the reason.
 void* open_component(const char* library);
 
 }  // namespace csgrt::cli

@@ -1,4 +1,4 @@
-// The options of a command that the descriptions of public structs have (form/requests.hpp).
+// Options of commands, made from the descriptions of public structs (form/requests.hpp).
 #pragma once
 
 #include <cctype>
@@ -14,8 +14,8 @@
 
 namespace csgrt::cli {
 
-/// A description's sentence as the help has it: without its point and its capital, and with what holds if the option is
-/// not given. Of a flag that switches off, what holds then.
+/// Makes the help's text from a description's sentence: removes the full stop and the capital letter, and adds the
+/// default. For a flag that switches something off, the text is the sentence's part after "; else".
 inline std::string help_of(std::string sentence, const form::Option& option) {
     constexpr std::string_view otherwise = "; else ";
     if (const std::size_t at = sentence.find(otherwise); option.is_off && at != sentence.npos)
@@ -69,7 +69,7 @@ Option& define_member(Options& options, const Member& member, Target& target) {
     }
 }
 
-/// `each(member, option)` is called with those that are defined.
+/// Defines the options of a struct's members that have this concern. Calls each(member, option) for each of them.
 template <class S, class Each>
 void define_members(Options& options, S& target, form::Concern concern, const Each& each) {
     form::for_members(form::of<S>, [&](const auto& member) {

@@ -31,15 +31,16 @@ void look_at(const char* line, unsigned long place, Mapped& mapped) {
     const unsigned long first = std::strtoul(line, &end, 16), last = std::strtoul(end + 1, nullptr, 16);
     const char* const name = std::strrchr(line, '/');
     if (name == nullptr) return;
-    // The drivers are libpocl, libintelocl, libigdrcl, libamdocl64, libnvidia-opencl and libMesaOpenCL; but not the
-    // loader, which OpenImageIO brings.
+    // The drivers are libpocl, libintelocl, libigdrcl, libamdocl64, libnvidia-opencl and libMesaOpenCL. libOpenCL is
+    // only the loader, and OpenImageIO loads it.
     for (const char* part : {"ocl", "igdrcl", "opencl", "OpenCL"})
         if (std::strstr(name, part) != nullptr && std::strncmp(name, "/libOpenCL", 10) != 0) mapped.has_driver = true;
     const bool is_csgrt = std::strncmp(name, "/csgrt", 6) == 0 || std::strncmp(name, "/libcsgrt", 9) == 0;
     if (is_csgrt && first <= place && place < last) mapped.is_own = true;
 }
 
-/// Finds the mapping of an address by asking the system, since a signal handler must not take a lock of the loader's.
+/// Finds the library at an address by the system's list of mappings, because a signal handler must not take the dynamic
+/// loader's lock.
 Mapped look_for(unsigned long place) {
     Mapped mapped;
     char block[4096], line[512];
@@ -70,7 +71,8 @@ unsigned long place_of([[maybe_unused]] const void* context) {
 
 void say(const char* text) { static_cast<void>(!write(STDERR_FILENO, text, std::strlen(text))); }
 
-/// Ends the process with a sentence. If it returns, the signal has its default effect.
+/// Prints a message and ends the process, if the fault is in libraries of others. Else returns, and the signal has its
+/// default effect.
 void end(int signal, unsigned long place) {
     if (driver_advice == nullptr) return;
     const Mapped mapped = look_for(place);

@@ -11,7 +11,8 @@ namespace {
 
 bool is_busy(const Renderer& renderer) { return !renderer.statistics().awaited_device.empty(); }
 
-/// Renderers that were not destroyed. end_process() empties the list or exits, so no static destructor destroys them.
+/// Renderers that were not destroyed. end_process() empties the list or exits, so the list's own destructor never
+/// destroys a Renderer.
 std::vector<Renderer> held;
 
 }  // namespace

@@ -9,8 +9,8 @@
 
 namespace csgrt::cli {
 
-/// Owns a Renderer. If a driver is still compiling kernels for it, the destructor does not destroy the Renderer: it
-/// would wait for the driver, which nothing can stop, and the kernels are no longer needed.
+/// Owns a Renderer. If a driver is still compiling kernels for the Renderer, the destructor does not destroy it,
+/// because this would wait for the driver, which nothing can stop.
 class HeldRenderer {
 public:
     explicit HeldRenderer(Renderer renderer) : renderer_(std::move(renderer)) {}

@@ -15,7 +15,7 @@ namespace csgrt::cli {
 namespace {
 
 std::atomic<bool> stop{false};
-static_assert(std::atomic<bool>::is_always_lock_free);  // a signal handler may touch nothing else
+static_assert(std::atomic<bool>::is_always_lock_free);  // a signal handler may use only such a flag
 
 constexpr unsigned grace = 4;  ///< seconds: a driver, or a library that is loaded, may never return
 
@@ -43,12 +43,15 @@ void catch_interrupts() {
     for (int signal : {SIGINT, SIGTERM, SIGHUP}) {
         struct sigaction before {};
         sigaction(signal, nullptr, &before);
-        if (before.sa_handler != SIG_IGN) sigaction(signal, &action, nullptr);  // as in a script's background, or nohup
+        if (before.sa_handler != SIG_IGN)
+            sigaction(signal, &action, nullptr);  // ignored signals stay ignored, as
+                                                  // under nohup or in the background of a
+                                                  // script
     }
     action.sa_handler = on_alarm;
-    action.sa_flags = SA_RESTART;  // a library goes on loading
+    action.sa_flags = SA_RESTART;  // the loading of a library goes on
     sigaction(SIGALRM, &action, nullptr);
-    try {  // a thread that a signal always reaches: others block signals while a driver is loaded
+    try {  // this thread can always take a signal; other threads block signals while a driver is loaded
         std::thread([] {
             for (;;) pause();
         }).detach();

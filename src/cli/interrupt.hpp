@@ -1,5 +1,5 @@
-// Interrupts: SIGINT, SIGTERM and SIGHUP. The first signal makes csgrt stop at a point where it can tidy up, and ends
-// it if this takes seconds. The second signal ends it at once. Then a file that was being written may be left, *.part
+// Interrupts: SIGINT, SIGTERM and SIGHUP. After the first signal csgrt stops where it can tidy up; if this takes 4 s,
+// it ends at once. A second signal ends it at once, too. An end at once may leave an unfinished file, *.part
 // (base/new_file.hpp).
 #pragma once
 
@@ -10,9 +10,8 @@ void catch_interrupts();
 
 bool interrupted() noexcept;
 
-/// Tells the user after 30 s that the libraries for pictures are being loaded, while it lives. A cold disk takes a few
-/// seconds, a busy machine any time, and one of 260 libraries may wait for ever, such as liblog4cplus for a thread that
-/// it does not get.
+/// Warns the user if the libraries for pictures are still being loaded 30 s after its construction. A slow disk takes a
+/// few seconds, a busy machine takes longer, and a library may wait for ever: liblog4cplus does if it gets no thread.
 class LoadingNotice {
 public:
     LoadingNotice() noexcept;

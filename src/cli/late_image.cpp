@@ -1,9 +1,9 @@
-// Late image: the command's write_image and read_image. They load csgrt::image at their first call: OpenImageIO needs
-// some 260 libraries, which take a fifth of a second to load, and a command that writes no picture should not wait for
-// them. A command that will write a picture loads them on a thread.
+// Late image: the command's write_image and read_image, which load csgrt::image at their first call. OpenImageIO needs
+// some 260 libraries, which take 0.2 s to load. A command without pictures does not load them, and a command that will
+// write a picture loads them on a thread.
 //
-// One dlopen of everything looks up each symbol in all libraries that it loads, and takes almost twice as long as one
-// dlopen for each library, after those that it needs. So the build lists the libraries in that order
+// Each library is loaded by its own dlopen, after the libraries that it needs: one dlopen of all would look up each
+// symbol in all of them, and take almost twice as long. The build lists the libraries in this order
 // (cmake/openimageio.cmake).
 #include "late_image.hpp"
 
@@ -32,8 +32,8 @@ bool has_begun = false;  ///< whether loading has begun
 /// Loads the libraries, none into the global scope. Returns at the next library after a request to stop.
 void load_one_by_one(const std::stop_token& stop) {
     std::istringstream names(CSGRT_PICTURE_LIBRARIES);
-    // RTLD_NOW: a library that uses symbols of libraries that it does not name fails here, as a missing library does.
-    // The dlopen of csgrt::image loads it, or reports it.
+    // RTLD_NOW: a library may fail here, because it is missing or uses symbols of libraries that it does not name. Then
+    // the dlopen of csgrt::image loads or reports it.
     for (std::string name; !stop.stop_requested() && names >> name;) dlopen(name.c_str(), RTLD_NOW | RTLD_LOCAL);
 }
 
@@ -70,8 +70,8 @@ namespace cli {
 ImageLoading::ImageLoading(const Command& command) {
     const auto* render = std::get_if<RenderArguments>(&command);
     if (!render || render->outputs.empty()) return;
-    // A named device's driver may need other releases of libraries than the pictures do (Intel's needs a newer TBB),
-    // and both get the release that is loaded first. A native device needs no driver.
+    // With a named device, the libraries are not loaded ahead: its driver may need other releases of some of them
+    // (Intel's needs a newer TBB), and the release that is loaded first serves both. A native device needs no driver.
     const std::string& device = render->settings.device;
     if (!device.empty() && !device.starts_with("native")) return;
     try {
@@ -79,12 +79,12 @@ ImageLoading::ImageLoading(const Command& command) {
         loading = std::jthread([](std::stop_token stop) {
             try {
                 load_one_by_one(stop);
-            } catch (const std::exception&) {  // no memory: functions() tries again, and reports it
+            } catch (const std::exception&) {  // there is no memory: functions() tries again, and reports the failure
             }
         });
         has_begun = true;
-        if (render->repeat > 1) loading.join();  // else the first frames would be timed beside it
-    } catch (const std::system_error&) {         // no thread: functions() loads them
+        if (render->repeat > 1) loading.join();  // otherwise loading would disturb the first frames' times
+    } catch (const std::system_error&) {         // there is no thread: functions() loads the libraries
     }
 }
 

@@ -5,11 +5,10 @@
 
 namespace csgrt::cli {
 
-/// Loads the libraries of csgrt::image on a thread, if `command` writes pictures and names no OpenCL device. If there
-/// are several frames, whose time is measured, the constructor waits until they are loaded. A failure is reported when
-/// the first picture is written. The destructor stops the thread and waits until it has loaded the current library
-/// (about a millisecond, 40 at most): exit() must not run while constructors of libraries do. At most one object at a
-/// time.
+/// Loads the libraries of csgrt::image on a thread, if `command` writes pictures and names no OpenCL device. If the
+/// command measures the time of several frames, the constructor waits for the thread. A failure is reported when the
+/// first picture is written. The destructor stops the thread after its current library (about 1 ms, at most 40 ms),
+/// because exit() must not run while a library's constructors do. At most one object at a time.
 class ImageLoading {
 public:
     explicit ImageLoading(const Command& command);

@@ -1,4 +1,4 @@
-// csgrt: the command. Exceptions become a message and an exit status here.
+// csgrt: the command's main function, which turns exceptions into a message and an exit status.
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
@@ -51,7 +51,8 @@ int fail_without_memory() noexcept {
     return static_cast<int>(Status::out_of_memory);
 }
 
-/// Ends the process after an allocation failed where nobody may throw, for example in a destructor of the JSON library.
+/// Ends the process after an allocation failed where exceptions are not allowed, for example in a destructor of the
+/// JSON library.
 [[noreturn]] void on_terminate() {
     try {
         if (std::current_exception()) throw;
@@ -62,8 +63,8 @@ int fail_without_memory() noexcept {
     std::abort();
 }
 
-/// Opens /dev/null, in the wrong direction, for each of the three standard files that is closed. Otherwise the next
-/// file that is opened would get its number, and would be read or written in its place.
+/// Opens /dev/null for each of the three standard files that is closed, in the wrong direction so that its use fails.
+/// Otherwise the next file to be opened would take the standard file's number and its reads or writes.
 void hold_standard_files() {
     for (int file : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
         if (fcntl(file, F_GETFD) < 0 && errno == EBADF)
@@ -112,8 +113,8 @@ Status run(const TextArguments& arguments) {
 }  // namespace csgrt::cli
 
 #ifdef __linux__
-/// Replaces abort() for all libraries, since it is the program's. The system's calls a handler once, and PoCL's
-/// compiler has put its own before csgrt's.
+/// Replaces abort() for all libraries, because a program's function comes before the system's. The system's abort()
+/// would call PoCL's compiler's handler, which was installed after csgrt's.
 extern "C" [[gnu::visibility("default")]] void abort() noexcept {
     csgrt::cli::on_abort(__builtin_return_address(0));
     for (;;) {
@@ -125,7 +126,7 @@ extern "C" [[gnu::visibility("default")]] void abort() noexcept {
 
 int main(int argc, char** argv) {
     std::set_terminate(csgrt::cli::on_terminate);
-    std::signal(SIGXFSZ, SIG_IGN);  // a file that grows too large is an error where it is written
+    std::signal(SIGXFSZ, SIG_IGN);  // a write beyond the size limit of files then fails, and is reported
     csgrt::cli::hold_standard_files();
     csgrt::cli::catch_interrupts();
     return csgrt::cli::end_process(csgrt::cli::main_status(argc, argv));

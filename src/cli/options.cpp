@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::size_t help_width = 100, help_column = 28;
 
-/// The row "  left    right", the right side folded at words and indented to its column.
+/// The row "  left    right", the right side wrapped at words, and its lines indented to one column.
 std::string help_row(const std::string& left, const std::string& right) {
     std::string out, line = "  " + left;
     if (line.size() + 2 > help_column) {
@@ -102,7 +102,7 @@ void Options::unknown(const std::string& name) {
           suggestion("--" + name.substr(std::min(name.find_first_not_of('-'), name.size())), names));
 }
 
-/// Reads the option at words[position], with its value, and leaves `position` on the last word that it used.
+/// Reads the option at words[position] and its value. Afterwards `position` is the last word that was used.
 void Options::parse_option(const std::vector<std::string>& words, std::size_t& position) {
     std::string name = words[position];
     if (name == "--help" || name == "-h") {

@@ -23,12 +23,12 @@ struct Option {
     std::string help;
     std::string expected;                            ///< "'x' is not ..."
     std::vector<std::string_view> words;             ///< values that are names; the nearest is suggested
-    std::function<bool(const std::string&)> accept;  ///< sets the target; false: the value is not as expected
+    std::function<bool(const std::string&)> accept;  ///< sets the target; false: the value is refused
     bool repeatable = false, required = false, given = false;
-    std::string excludes;  ///< name of another option
+    std::string excludes;  ///< name of an option that must not be given, too
 };
 
-/// The options of one command. Targets must outlive it.
+/// The options of one command. Targets must outlive the object.
 class Options {
 public:
     Option& flag(std::string name, std::string help, bool& target, bool value = true);
@@ -103,7 +103,8 @@ public:
     /// All arguments after the required ones.
     void arguments(std::string name, std::string help, std::vector<std::string>& target);
 
-    /// Returns every finding; empty means that all targets are set. Words after "--" are arguments, however they begin.
+    /// Returns every finding; empty means that all targets are set. Words after "--" are arguments, also if they begin
+    /// with "-".
     std::vector<Diagnostic> parse(const std::vector<std::string>& words);
 
     bool help_wanted() const { return help_wanted_; }

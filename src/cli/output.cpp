@@ -117,7 +117,7 @@ void OutputFile::commit() {
 
 void OutputFile::fail() const {
     int code = errno;
-    check_interrupt();  // a signal may be the reason
+    check_interrupt();  // a signal may have caused the failure
     throw Error(Status::file, std::string("standard output: cannot write: ") +
                                   (code == EBADF ? "it is closed" : std::strerror(code)));
 }

@@ -18,8 +18,9 @@ struct NamedFile {
 /// ".png": the extension of a name, in small letters.
 std::string extension_of(const std::string& path);
 
-/// Throws Error with every finding: usage, if an output is also an input or another output, or if standard output or
-/// standard input is named twice; file, if an output cannot be written at its path. "-" is standard output.
+/// Throws Error with every finding. Error (usage): a file is an output and an input or is an output twice, or standard
+/// output or standard input is named twice. Error (file): an output cannot be written. The output "-" is standard
+/// output.
 void check_outputs(const std::vector<NamedFile>& outputs, const std::vector<NamedFile>& inputs);
 
 /// A text file that is written whole or not at all (NewFile). "-" is standard output.
@@ -34,7 +35,7 @@ public:
 private:
     [[noreturn]] void fail() const;
 
-    std::optional<NewFile> file_;  ///< none: standard output
+    std::optional<NewFile> file_;  ///< absent: standard output
 };
 
 /// Prints on standard output; Error (file) if that fails.

@@ -23,7 +23,7 @@ public:
 
     /// Begins a stage, e.g. "rendering"; its fraction is unknown until the first update. Safe from any thread.
     void stage(std::string name);
-    /// The part of the stage that the next updates cover: from `begin` to `end`, both 0..1. A new stage covers 0 to 1.
+    /// Sets the part of the stage that the next updates cover: fractions `begin` to `end`. A new stage has 0 to 1.
     void range(double begin, double end);
     /// Sets the done fraction of the range, 0..1. Safe from any thread.
     void update(double fraction);
@@ -41,7 +41,7 @@ private:
     double fraction_ = -1;  ///< negative: unknown
     Clock::time_point start_ = Clock::now();
     bool done_ = false;
-    JoinedThreads thread_;  ///< one, or none; joined before the other members are destroyed
+    JoinedThreads thread_;  ///< at most one thread; joined before the other members are destroyed
 };
 
 /// Whether standard error is a terminal that understands escape sequences.

@@ -93,7 +93,7 @@ std::optional<std::uint64_t> parse_count(std::string_view text) {
 }
 
 std::optional<std::pair<int, int>> parse_size(std::string_view text) {
-    constexpr std::string_view sign = "\xC3\x97";  // of multiplication
+    constexpr std::string_view sign = "\xC3\x97";  // the sign of multiplication
     const std::size_t cross = std::min(text.find_first_of("xX*"), text.find(sign));
     const std::size_t length = text.substr(std::min(cross, text.size())).starts_with(sign) ? sign.size() : 1;
     auto width = parse_count(without_blanks(text.substr(0, cross)));

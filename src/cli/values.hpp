@@ -1,4 +1,4 @@
-// Values as they are written on a command line and in a file of rays.
+// Readers of values on the command line and in files of rays.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@
 namespace csgrt::cli {
 
 inline constexpr int max_side =
-    32'768;  ///< pixels; a larger picture has more than a billion rays and is taken for a mistake
+    32'768;  ///< pixels; a larger picture has more than a billion rays, which is surely a mistake
 
 /// Reads a finite number, the whole of `text`; a leading plus is allowed. See decimal.hpp.
 std::optional<double> parse_number(std::string_view text);
@@ -40,8 +40,8 @@ std::optional<std::pair<Axis, int>> parse_grid(std::string_view text);
 /// Reads a decimal whole number, the whole of `text`.
 std::optional<std::uint64_t> parse_count(std::string_view text);
 
-/// Reads "1024" or "1920x1080", each side from 1 to max_side; X, * and the sign of multiplication are allowed, and
-/// blanks.
+/// Reads "1024" or "1920x1080", each side from 1 to max_side. Between the sides may be x, X, * or the sign of
+/// multiplication, and blanks.
 std::optional<std::pair<int, int>> parse_size(std::string_view text);
 
 /// Reads bytes: a number, with K, M, G or T for powers of 1024, as "512M", "512 MiB" or "1.5gb"; at least 1.

@@ -17,10 +17,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The suffix of all names: the folder may hold the user's own files, too.
+// The suffix of the cache's files: the folder may hold the user's own files, too.
 constexpr const char* suffix = ".csgrt-binary";
 
-/// The head before a binary. Its first line is the version of the format: a file of another version is replaced.
+/// The head before a binary. Its first line is the format's version. A file of another version is replaced.
 std::string head_of(const std::string& key, std::string_view binary) {
     Fnv1a sum;
     sum.add_text(key);
@@ -29,8 +29,8 @@ std::string head_of(const std::string& key, std::string_view binary) {
            key;
 }
 
-/// The contents of a file: empty if there is no file or one of more than `most_bytes`; the part before the fault if it
-/// cannot be read to its end.
+/// The contents of a file. Empty if there is no file, or if it has more than `most_bytes`. If reading fails, the part
+/// that was read.
 std::string content_of(const fs::path& file, std::uint64_t most_bytes) {
     std::error_code error;
     const std::uintmax_t size = fs::file_size(file, error);
@@ -54,7 +54,7 @@ std::vector<Kept> files_in(const fs::path& folder) {
     std::error_code error;
     for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
         if (entry->path().filename().string().find(suffix) == std::string::npos) continue;
-        std::error_code gone;  // another process removes files, too
+        std::error_code gone;  // set if another process has removed the file
         const auto used = entry->last_write_time(gone);
         const std::uint64_t bytes = gone ? 0 : entry->file_size(gone);
         if (!gone) all.push_back({used, bytes, entry->path()});
@@ -88,7 +88,7 @@ std::optional<std::string> BinaryCache::find(const std::string& key) const {
     const std::string_view binary = std::string_view(content).substr(head);
     if (!content.starts_with(head_of(key, binary))) return {};
     content.erase(0, head);
-    std::error_code ignored;  // the file may be read-only
+    std::error_code ignored;  // the file's time cannot be set if it is read-only
     fs::last_write_time(file, fs::file_time_type::clock::now(), ignored);
     return content;
 }
@@ -100,7 +100,7 @@ void BinaryCache::keep(const std::string& key, std::string_view binary) const {
     fs::create_directories(folder_, error);
     if (error) return;
     const fs::path name = file_of(key);
-    if (fs::exists(name, error) && !fs::is_regular_file(name, error)) return;  // a pipe would wait for its reader
+    if (fs::exists(name, error) && !fs::is_regular_file(name, error)) return;  // opening a pipe would wait for a reader
     try {
         NewFile file(name.string());
         file.write(head);
@@ -116,8 +116,7 @@ void BinaryCache::remove_oldest() const {
     const std::vector<Kept> all = files_in(folder_);
     std::uint64_t bytes = 0;
     for (const Kept& kept : all) bytes += kept.bytes;
-    // An unfinished file that is old is left from a process that ended badly; a file that a process writes now is
-    // younger.
+    // An unfinished file older than an hour was left by a process that ended badly.
     const auto old = fs::file_time_type::clock::now() - std::chrono::hours(1);
     for (const Kept& kept : all) {
         const bool unfinished = !kept.file.string().ends_with(suffix);

@@ -1,5 +1,5 @@
-// Binary cache: compiled programs in files, for drivers that keep none. Intel's driver compiles for seconds in every
-// process.
+// Binary cache: keeps compiled programs in files, for drivers that do not do so. Intel's driver would compile for
+// seconds in every process.
 #pragma once
 
 #include <atomic>
@@ -13,25 +13,25 @@
 
 namespace csgrt {
 
-/// Keeps one file a program, in one folder, under the hash of everything that the program depends on. Several threads
-/// and processes may use a folder at a time. A file that was cut off or damaged counts as missing. There is no guard
-/// against somebody who may write to the folder.
+/// A folder with one file for each program, named by a hash of everything that the program depends on. Several threads
+/// and processes may use a folder at a time. A file that was cut off or damaged counts as missing. The cache trusts
+/// everybody who may write to the folder.
 class BinaryCache {
 public:
     static constexpr std::uint64_t usual_bytes = std::uint64_t{256} << 20;
 
-    /// `most_bytes`: of all files together.
+    /// `most_bytes`: the largest total size of the files.
     explicit BinaryCache(std::filesystem::path folder, std::uint64_t most_bytes = usual_bytes);
 
-    /// The binary under this very key, if there is one. It counts as used now.
+    /// The binary with this key, if there is one. It becomes the most recently used.
     std::optional<std::string> find(const std::string& key) const;
-    /// Keeps `binary` in place of the one under the same key, and then removes the least recently used files until all
-    /// fit. If nothing can be written, nothing is kept, without an error.
+    /// Writes `binary`, replaces an older one with the same key, and removes the least recently used files until the
+    /// total size is allowed. If nothing can be written, the call has no effect and reports no error.
     void keep(const std::string& key, std::string_view binary) const;
 
     std::filesystem::path file_of(const std::string& key) const;
 
-    /// For tests: drivers that keep their own binaries get a cache, too.
+    /// For tests: true gives a cache also to drivers that keep compiled programs themselves.
     static inline std::atomic<bool> for_every_driver{false};
 
 private:

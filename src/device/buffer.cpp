@@ -81,7 +81,7 @@ Event Buffer::transfer_in(const void* source, std::size_t bytes, std::size_t off
     return Event(device_->cl(), event);
 }
 
-// A wait within the driver takes one call less, but only the other wait has a time limit.
+// A blocking read takes one call less, but only the host's wait for an event has a time limit.
 Event Buffer::transfer_out(cl_command_queue queue, void* target, std::size_t bytes, std::size_t offset,
                            bool wait) const {
     check_range(bytes, offset);

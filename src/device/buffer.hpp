@@ -1,4 +1,4 @@
-// Buffers: memory on the device, and pages on the host that the device reads and writes without another copy.
+// Buffers: memory on the device, and host memory that the device reads and writes without an intermediate copy.
 #pragma once
 
 #include <cstddef>
@@ -13,8 +13,8 @@
 
 namespace csgrt {
 
-/// A named block of device memory, counted against the device's budget. A buffer of size 0 holds no memory, and a
-/// kernel gets a null pointer for it. All transfers throw Error (device_fault, out_of_memory) with the buffer's name.
+/// A named block of device memory, counted against the device's budget. A buffer of size 0 holds no memory: kernels get
+/// a null pointer. All transfers throw Error (device_fault, out_of_memory) with the buffer's name.
 class Buffer {
 public:
     Buffer(Device& device, std::string name, std::size_t bytes = 0);
@@ -60,11 +60,11 @@ public:
         return read_by<T>(device_->copy_queue(), count);
     }
 
-    /// The first `bytes`, where the host can read them: in place if the device is the host's own processor.
+    /// Maps the first `bytes` into the host's memory. If the device is the host's own processor, nothing is copied.
     class Mapping;
     Mapping map(std::size_t bytes) const;
 
-    /// Queues an upload: the host's memory must stay as it is until the event, or the queue, is done.
+    /// Queues an upload. The host's memory must not change until the event or the queue is done.
     Event queue_upload(const void* source, std::size_t bytes, std::size_t offset = 0);
     Event queue_read(void* target, std::size_t bytes, std::size_t offset = 0) const;
     /// Queues a read on the device's copy queue, which does not wait for other queues.
@@ -82,7 +82,7 @@ private:
         try {
             transfer_out(queue, values->data(), count * sizeof(T), 0, true);
         } catch (...) {
-            if (device_->cl().is_lost) keep_for_ever(values);  // the device may still write there
+            if (device_->cl().is_lost) keep_for_ever(values);  // the lost device may still write to this memory
             throw;
         }
         return std::move(*values);
@@ -94,7 +94,7 @@ private:
     Memory memory_;
 };
 
-/// A buffer's contents in the host's memory, while it lives.
+/// A buffer's mapped contents. The destructor unmaps them.
 class Buffer::Mapping {
 public:
     Mapping(const Device& device, cl_mem memory, void* data)
@@ -113,11 +113,11 @@ private:
 };
 
 /// Registers host memory with a GPU's driver, so that the GPU copies to it at the full speed of its bus. The driver
-/// holds as much memory on the device. The contents stay. The memory must outlast the object; the device need not.
+/// takes as much memory of the device. The contents stay. The host memory must outlive the object; the device need not.
 class HostRegistration {
 public:
-    /// Throws Error (out_of_memory, device_fault) if the driver refuses the memory. Memory of a lost device must stay
-    /// for ever: the device may still write to it.
+    /// Throws Error (out_of_memory, device_fault) if the driver refuses the memory. If the device is lost, the memory
+    /// must never be freed, because the device may still write to it.
     HostRegistration(const Device& device, void* data, std::size_t bytes);
     HostRegistration(HostRegistration&&) noexcept = default;
     HostRegistration& operator=(HostRegistration&&) = delete;
@@ -132,9 +132,9 @@ private:
     void* data_ = nullptr;
 };
 
-/// Host memory that a GPU copies to and from at the full speed of its bus (ordinary pages go through the driver's own
-/// copy, several times slower). It does not count against the device's budget, though NVIDIA's driver holds as much on
-/// the device.
+/// Pinned host memory, which a GPU copies to and from at the full speed of its bus. Copies of ordinary memory are
+/// several times slower. Pinned memory does not count against the device's budget, though NVIDIA's driver takes as much
+/// memory of the device.
 class PinnedMemory {
 public:
     PinnedMemory(const Device& device, std::string name, std::size_t bytes);

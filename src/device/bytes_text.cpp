@@ -11,7 +11,7 @@ std::string bytes_text(std::uint64_t bytes) {
     double value = static_cast<double>(bytes) / 1024;
     int unit = 0;
     for (; value >= 1024 && unit < 3; ++unit) value /= 1024;
-    char text[32];  // to_chars, since printf writes the locale's comma
+    char text[32];  // to_chars, because printf would write the locale's comma
     const auto [end, status] = std::to_chars(std::begin(text), std::end(text), value, std::chars_format::fixed, 1);
     return std::string(text, end) + ' ' + units[unit];
 }

@@ -13,7 +13,7 @@ namespace csgrt {
 
 namespace {
 
-/// A guess at a mistyped --device: a type, a device's or a platform's name, or a word of a name.
+/// The word most similar to a mistyped --device: a type, a device's or a platform's name, or a word of a name.
 std::string nearest_device(const std::vector<DeviceInfo>& devices, const std::string& wanted) {
     std::vector<std::string> known = {"accelerator", "cpu", "gpu", "gpus", "native", "pocl"};
     for (const DeviceInfo& device : devices) {
@@ -26,7 +26,9 @@ std::string nearest_device(const std::vector<DeviceInfo>& devices, const std::st
                 if (word.size() > 2) known.push_back(word);
         }
     }
-    if (std::find(known.begin(), known.end(), lower(wanted)) != known.end()) return {};  // known, but no device fits
+    if (std::find(known.begin(), known.end(), lower(wanted)) != known.end())
+        return {};  // spelled correctly, but no
+                    // device fits
     return did_you_mean(wanted, {known.begin(), known.end()});
 }
 
@@ -51,7 +53,7 @@ std::string nearest_device(const std::vector<DeviceInfo>& devices, const std::st
     throw Error(Status::no_device, std::vector<Diagnostic>{finding});
 }
 
-/// Refuses numbers, or a method, for which native devices have no kernels.
+/// Refuses a native device for a precision or a method without native kernels.
 [[noreturn]] void refuse_native(const std::vector<DeviceInfo>& devices) {
     refuse(devices, "native devices have the kernels of double precision alone", {},
            "An OpenCL device has those of single precision: on Debian and Ubuntu the package pocl-opencl-icd brings "
@@ -88,7 +90,7 @@ std::size_t choose_device(const std::vector<DeviceInfo>& devices, const std::str
     std::size_t first = devices.size();
     for (std::size_t i = 0; i < devices.size(); ++i) {
         const DeviceInfo& device = devices[i];
-        // PoCL has its short name only in its version.
+        // The short name "pocl" is only in the version that PoCL's platform reports.
         const bool fits = by_type ? device.type == wanted
                                   : lower(device.name + '\n' + device.platform + '\n' + device.version).find(wanted) !=
                                         std::string::npos;

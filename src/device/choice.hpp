@@ -8,8 +8,8 @@
 
 namespace csgrt {
 
-/// The kernels that a device needs: those of any device, or those that it compiles itself, as other methods than the
-/// default and single precision need (is_native).
+/// The kernels that settings need. `compiled_by_device`: the kernels of single precision or of a method other than the
+/// default, which native devices do not have (is_native).
 enum class Kernels { any, compiled_by_device };
 Kernels kernels_for(const Settings& settings);
 
@@ -17,8 +17,8 @@ Kernels kernels_for(const Settings& settings);
 std::size_t choose_device(const std::vector<DeviceInfo>& devices, const std::string& choice,
                           Kernels kernels = Kernels::any);
 
-/// The indices if `choice` may name several: "gpus", all with double precision, or choices with commas between them. It
-/// is an error to name one twice.
+/// The indices of all devices that `choice` names. "gpus" names all GPUs with double precision; commas separate several
+/// choices. Throws as choose_device() does, and if a device is named twice.
 std::vector<std::size_t> choose_devices(const std::vector<DeviceInfo>& devices, const std::string& choice,
                                         Kernels kernels = Kernels::any);
 

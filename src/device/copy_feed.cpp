@@ -10,16 +10,17 @@
 namespace csgrt {
 namespace {
 
-// The bytes underway: a chunk takes longer than a copy takes to begin, 4 microseconds; with two underway, the bus has
-// no pause (docs/experiments.md).
+// Floats in copies that are underway. A copy takes 4 microseconds to begin, less than a chunk's copy lasts, so two
+// chunks keep the bus busy (docs/experiments.md).
 constexpr std::size_t most_underway = 2 * CopyFeed::chunk;
-constexpr std::size_t floats_a_thread = std::size_t{1} << 19;  // fewer are written sooner than a thread wakes
+constexpr std::size_t floats_a_thread = std::size_t{1} << 19;  // fewer floats are written in less time than a thread
+                                                               // takes to wake
 
 std::size_t end_of(const CopyFeed::Copy& copy) {
     return copy.begin + (copy.channels - 1) * copy.slice + (copy.lines - 1) * copy.pitch + copy.columns;
 }
 
-/// Writes values that stand one channel and line right behind the other to their target.
+/// Copies densely packed values, channel by channel and line by line, to their target.
 void put(const CopyFeed::Copy& copy, const float* values) {
     for_chunks(copy.channels * copy.lines, std::max<std::size_t>(1, floats_a_thread / copy.columns), 0,
                [&](std::size_t i, std::size_t last, std::size_t) {
@@ -35,7 +36,7 @@ void put(const CopyFeed::Copy& copy, const float* values) {
 CopyFeed::CopyFeed(const Device& device) : device_(device) {
     try {
         thread_.emplace([this] { work(); });
-    } catch (const std::system_error&) {  // no more threads: add() waits
+    } catch (const std::system_error&) {  // there is no thread: add() makes the copies itself
     }
 }
 
@@ -133,7 +134,7 @@ void CopyFeed::give_piece(const std::shared_ptr<Job>& job, const Copy& copy) {
     device_.flush_copies();
 }
 
-/// Waits for the first of the chunks underway.
+/// Waits for the oldest chunk underway.
 void CopyFeed::retire() {
     const Underway first = std::move(underway_.front());
     underway_.pop_front();

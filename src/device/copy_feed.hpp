@@ -1,7 +1,8 @@
-// Copy feed: copies from the device to the host's memory beside kernels, on a thread of its own, in chunks, few at a
-// time. So the read of a QueuedRead stands behind few of them. (NVIDIA's driver leaves one queue's copies for another's
-// only when none is left, or a millisecond has gone by.) A chunk goes straight into memory that the device knows. For
-// other memory it goes into pinned memory, from which the thread copies it while the device copies the next.
+// Copy feed: a thread that copies from the device to the host's memory while kernels run. It makes chunks and queues
+// few of them at a time, so that the small copy of a QueuedRead waits for few chunks. (NVIDIA's driver changes from one
+// queue's copies to another's only when the queue is empty, or after a millisecond.) The device copies a chunk directly
+// to registered memory. For other memory it copies to pinned memory, and the thread copies on from there while the
+// device copies the next chunk.
 #pragma once
 
 #include <condition_variable>
@@ -18,16 +19,15 @@
 
 namespace csgrt {
 
-/// A queue of copies with a thread that makes them. Kernels of other queues run meanwhile, and small reads wait for few
-/// chunks.
+/// A queue of copies, and the thread that makes them.
 class CopyFeed {
 public:
-    /// A rectangle of a picture: floats in several channels, of each channel some lines, one beneath the other. A line
-    /// of all channels has at most `chunk` floats.
+    /// A rectangle of a picture: consecutive lines of several channels. One line of all channels together has at most
+    /// `chunk` floats.
     struct Copy {
         std::size_t columns, lines = 1, channels = 1;
-        /// The position of the first float in the buffer; the distance from line to line; and from channel to channel,
-        /// a multiple of it.
+        /// The first float's index in the buffer; the distance in floats from line to line; and from channel to
+        /// channel, a multiple of the pitch.
         std::size_t begin = 0, pitch = 0, slice = 0;
         float* target = nullptr;  ///< the first float on the host
         std::size_t target_pitch = 0, target_slice = 0;
@@ -39,19 +39,19 @@ public:
     explicit CopyFeed(const Device& device);
     CopyFeed(const CopyFeed&) = delete;
     CopyFeed& operator=(const CopyFeed&) = delete;
-    /// Finishes all copies.
+    /// Waits until all copies are done.
     ~CopyFeed();
 
-    /// Makes the copies after those given before. Does not wait: until the future is ready the buffer must stay as it
-    /// is, and its contents must be complete already. `is_registered`: the target is memory that the device knows. The
-    /// future throws Error (device_fault, out_of_memory) if a copy failed.
+    /// Queues copies, after those of earlier calls, and does not wait. The buffer's contents must be complete, and must
+    /// not change until the future is ready. `is_registered`: the target is in a HostRegistration. The future throws
+    /// Error (device_fault, out_of_memory) if a copy failed.
     std::shared_future<void> add(const Buffer& buffer, std::vector<Copy> copies, bool is_registered);
 
 private:
     struct Job {
         Job(const Buffer& from, std::vector<Copy> all, bool registered)
             : buffer(from), copies(std::move(all)), is_registered(registered) {}
-        ~Job() { failure ? done.set_exception(failure) : done.set_value(); }  // when its last chunk is copied
+        ~Job() { failure ? done.set_exception(failure) : done.set_value(); }  // runs when the last chunk is copied
 
         const Buffer& buffer;
         std::vector<Copy> copies;
@@ -63,7 +63,7 @@ private:
     struct Underway {
         std::shared_ptr<Job> job;
         Copy copy;
-        const float* staged;  ///< its position in the staging memory; null: it goes straight to the target
+        const float* staged;  ///< the chunk's position in the staging memory; null: it is copied directly to the target
         Event event;
     };
     void work();
@@ -76,12 +76,12 @@ private:
     bool stop_ = false;
     std::mutex mutex_;
     std::condition_variable changed_;
-    std::optional<PinnedMemory> staging_;  ///< two chunks
-    // The members below belong to the thread.
+    std::optional<PinnedMemory> staging_;  ///< memory for two chunks
+    // Only the thread uses the members below.
     std::deque<Underway> underway_;
-    std::size_t floats_ = 0;        ///< underway
-    std::size_t next_ = 0;          ///< the chunk of the staging memory that was used longest ago
-    std::optional<Thread> thread_;  ///< none if no thread was available
+    std::size_t floats_ = 0;        ///< number of floats underway
+    std::size_t next_ = 0;          ///< the half of the staging memory that was used longest ago
+    std::optional<Thread> thread_;  ///< empty if no thread was available
 };
 
 }  // namespace csgrt

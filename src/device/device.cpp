@@ -13,16 +13,16 @@ namespace csgrt {
 
 namespace {
 
-/// The default budget for buffers. A driver keeps some memory for itself and does not say how much; a device that
-/// shares the host's memory must leave the host its half.
+/// The default budget for buffers. A driver takes some memory for itself and does not report how much. A device that
+/// shares the host's memory leaves half of it to the host.
 std::uint64_t default_budget(const DeviceInfo& info, bool shares_host_memory) {
     if (!shares_host_memory) return info.memory / 8 * 7;
     const std::uint64_t host = available_host_memory();
     return std::min(info.memory, host ? host : info.memory) / 2;
 }
 
-/// A GPU's kernel that ran longer would keep its other users waiting. A processor's kernels take as long as the rays
-/// need.
+/// The default time limit of a kernel in seconds: a longer kernel would keep a GPU's other users waiting. Processors
+/// have no limit.
 constexpr double default_timeout = 60;
 
 double patience_with(const DeviceInfo& info, double timeout) {
@@ -45,7 +45,7 @@ Device::Device(const FoundDevice& device, std::uint64_t max_memory, double timeo
     const cl_context_properties properties[] = {native::stop_property, reinterpret_cast<cl_context_properties>(&stop_),
                                                 0};
     cl_int code = CL_SUCCESS;
-    const BlockedSignals blocked;  // drivers start threads here
+    const BlockedSignals blocked;  // drivers start threads in this scope
     context_ =
         Context(cl(), cl().CreateContext(is_native(info_) ? properties : nullptr, 1, &id_, nullptr, nullptr, &code));
     check(code, "clCreateContext (" + info_.name + ")");

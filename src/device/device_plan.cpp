@@ -33,8 +33,8 @@ std::vector<FoundDevice> find_gpu() {
     return gpu == devices.end() ? std::vector<FoundDevice>{} : std::vector<FoundDevice>{*gpu};
 }
 
-/// The native device of a choice that can name no other: the best of them comes before all other processors. If there
-/// are several choices, one may be a number, which counts all devices.
+/// The native device that `settings` name, if it is known without loading a driver: the best native device stands
+/// before all other processors. Of several choices with commas, one may be a number, which counts all devices.
 std::vector<FoundDevice> chosen_native(const Settings& settings) {
     const std::string choice = lower(settings.device);
     const bool is_one = choice == "cpu" || (choice.starts_with("native") && choice.find(',') == std::string::npos);
@@ -43,7 +43,7 @@ std::vector<FoundDevice> chosen_native(const Settings& settings) {
     if (native.empty()) return {};
     try {
         return pick(native, choose_devices(infos_of(native), settings.device));
-    } catch (const Error&) {  // the caller that looks at all devices reports the error
+    } catch (const Error&) {  // the caller, which will look at all devices, reports the error
         return {};
     }
 }
@@ -77,7 +77,7 @@ DevicePlan plan_default(const Settings& settings) {
     return plan;
 }
 
-/// Throws the error with the faults of drivers that cannot be used: the named device may be one of theirs.
+/// Throws `error`, and adds the faults of drivers that cannot be used, because the named device may need such a driver.
 [[noreturn]] void refuse_with(const Discovery& found, const Error& error) {
     std::vector<Diagnostic> findings = error.diagnostics();
     for (const std::string& note : found.notes) findings.back().suggestion += "\n" + note;
@@ -106,8 +106,9 @@ DevicePlan plan_chosen(const Settings& settings) {
 }
 
 #ifdef __linux__
-/// Makes the main thread wait at exit. exit() destroys the objects of the calling thread, and then all others, the
-/// youngest first: a driver's libraries before objects that existed when their loading began.
+/// Makes the main thread wait for the search at exit. exit() destroys the thread-local objects of the calling thread
+/// first, and then all static objects, the youngest first. So libraries that the search loads would be destroyed before
+/// any static object that could wait.
 struct WaitAtExit {
     const std::future<void>& looking;
     unsigned process = process_number();
@@ -133,8 +134,8 @@ DevicePlan plan_devices(const Settings& settings) {
 void prepare_devices(const Settings& settings) {
     const FloatingPoint own;
     if (!may_use_drivers(settings) || !has_drivers()) return;
-    // A caller that needs the devices waits for find_devices(), which reports their faults. If no thread is available,
-    // nothing is searched ahead.
+    // A caller that needs the devices waits in find_devices(), which reports their faults. If no thread is available,
+    // there is no search ahead.
     static const std::unique_ptr<std::future<void>, DeleteOwn> looking(new std::future<void>(start_async([] {
         try {
             find_devices();

@@ -1,5 +1,5 @@
-// Device plan: which devices draw, and when. Native devices need no driver and no compiler, and draw at once where
-// another device is not ready yet.
+// Device plan: which devices draw, and when. Native devices need no driver and no compiler, so they draw while another
+// device's kernels are still being compiled.
 #pragma once
 
 #include <functional>
@@ -10,15 +10,15 @@
 
 namespace csgrt {
 
-/// The devices of a Renderer: those that draw at once, and those that take over later.
+/// The devices of a Renderer: devices that draw at once, and devices that take over later.
 struct DevicePlan {
-    std::vector<FoundDevice> first;  ///< draw from the first call on; empty: there is none, and the reference draws
-    /// Finds the devices that take over once their kernels are compiled; none: `first` stay. It may load drivers, so a
-    /// thread calls it. Null: no device takes over.
+    std::vector<FoundDevice> first;  ///< draw from the first call on; empty: the reference draws
+    /// Finds the devices that take over once their kernels are compiled. An empty result: `first` go on. The function
+    /// may load drivers, so call it on a thread. Null: no device takes over.
     std::function<std::vector<FoundDevice>()> find_next;
-    std::string next;                ///< the name of the devices that take over, as far as it is known
+    std::string next;                ///< the name of the devices that take over, if it is known
     bool is_default = true;          ///< the user named no device: a fault of the devices that take over is no error
-    std::vector<std::string> notes;  ///< the reasons why the reference draws, a sentence each
+    std::vector<std::string> notes;  ///< sentences that say why the reference draws
 };
 
 /// Plans by `settings`: device, method and wait_for_device. Drivers are loaded if a named device is not native, or no

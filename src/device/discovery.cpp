@@ -17,7 +17,7 @@ namespace csgrt {
 
 namespace {
 
-constexpr cl_int platform_not_found = -1001;  // of the ICD loader (cl_khr_icd), when no driver is installed
+constexpr cl_int platform_not_found = -1001;  // the ICD loader's code (cl_khr_icd) if no driver is installed
 
 template <class Get>
 std::string text_of(Get get, const char* call) {
@@ -50,7 +50,7 @@ std::string platform_text(const OpenCl& cl, cl_platform_id platform) {
         "clGetPlatformInfo");
 }
 
-/// The machine that tests pretend.
+/// The machine that a test simulates.
 struct Pretence {
     std::string platform;
     bool are_broken = false;
@@ -98,7 +98,7 @@ std::vector<FoundDevice> devices_of(const OpenCl& cl, cl_platform_id platform) {
     return devices;
 }
 
-/// Adds the devices of each platform. A platform that fails leaves a note; the others still serve.
+/// Adds the devices of each platform. If a platform fails, a note is added, and other platforms are still used.
 void add_devices(const OpenCl& cl, Discovery& found) {
     cl_uint count = 0;
     const cl_int code = cl.GetPlatformIDs(0, nullptr, &count);
@@ -124,8 +124,8 @@ void add_devices(const OpenCl& cl, Discovery& found) {
     }
 }
 
-/// Adds native devices. The best stands before all other processors; levels that leave some of this processor's
-/// instructions unused stand last.
+/// Adds native devices. The best one stands before all other processors. The other levels, which do not use all of this
+/// processor's instructions, stand last.
 void add_native(Discovery& found) {
     std::vector<FoundDevice> native = find_native_devices();
     if (native.empty()) return;
@@ -166,7 +166,8 @@ Discovery find_devices() {
         const BlockedSignals blocked;
         const OpenClLoader& loader = opencl_loader();
         if (loader.functions) {
-            static bool lacked = false;  // ocl-icd loads drivers once, and does not report those that it cannot load
+            static bool lacked = false;  // ocl-icd loads drivers once, and does not report drivers that it could not
+                                         // load
             static_cast<void>(last_load_fault());
             add_devices(*loader.functions, found);
             lacked |= lacked_memory(last_load_fault());

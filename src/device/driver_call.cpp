@@ -16,7 +16,7 @@ namespace csgrt {
 
 namespace {
 
-thread_local int own_calls = 0;  // calls of the thread that calls exit(), for which it does not wait
+thread_local int own_calls = 0;  // this thread's calls; the thread that calls exit() does not wait for its own
 
 class Gate {
 public:
@@ -28,7 +28,7 @@ public:
     void enter() {
         constexpr std::chrono::seconds longest(3);
         std::unique_lock lock(mutex_);
-        // A thread inside may wait for a thread that comes, so these are let in.
+        // A call inside may wait for another thread's call, so new calls are let in as long as there are calls inside.
         const auto lets_in = [this] { return !is_closed_ || inside_ > 0; };
         const bool is_exit = is_closed_ && closer_ == std::this_thread::get_id();
         if (!(is_exit ? lets_in() : changed_.wait_for(lock, longest, lets_in)))
@@ -49,7 +49,7 @@ public:
 
     void close() {
         constexpr std::chrono::seconds longest(30);
-        if (process_ != process_number()) return;  // a child has none of the threads
+        if (process_ != process_number()) return;  // a child process has none of the threads
         std::unique_lock lock(mutex_);
         is_closed_ = true;
         closer_ = std::this_thread::get_id();
@@ -71,9 +71,9 @@ private:
 };
 
 #ifdef __linux__
-/// Waits first at exit(). exit() destroys the objects of the calling thread before all others, so also before the
-/// objects that a compiler has made since the handler was registered. The calling thread is nearly always the main
-/// thread, which does not end otherwise.
+/// Makes exit() wait for driver calls before it destroys anything that they use. exit() destroys the calling thread's
+/// thread_local objects first, also before objects that a compiler made after wait_for_driver_calls_at_exit(). The
+/// calling thread is nearly always the main thread.
 struct CloseFirst {
     CloseFirst() = default;
     CloseFirst(const CloseFirst&) = delete;

@@ -5,21 +5,22 @@
 
 namespace csgrt {
 
-/// Marks a call of a driver. While there is one, a driver may compile, or run compiled code, on threads of its own:
-/// PoCL compiles a kernel when it is first launched. exit() destroys the objects that its compiler uses. So exit()
-/// waits for the calls that there are, half a minute at most, and no other begins: a new call waits for the end.
+/// Marks a call of a driver. During a call, a driver may compile or run code on its own threads; PoCL, for example,
+/// compiles a kernel at its first launch. exit() destroys the objects that the compiler uses. So exit() waits for the
+/// current calls, at most 30 s, and later calls do not begin.
 class DriverCall {
 public:
-    /// Begins a call. If not `used`, it does nothing. Throws Error (usage) in a thread that must not wait for the end:
-    /// the thread that called exit(); any other thread after 3 s, since a destructor may wait for it.
+    /// Begins a call. Does nothing if not `used`. Throws Error (usage) after exit() was called: at once in the thread
+    /// that called exit(), and after 3 s in other threads, because a destructor may wait for them.
     explicit DriverCall(bool used = true);
     DriverCall(const DriverCall&) = delete;
     DriverCall& operator=(const DriverCall&) = delete;
     ~DriverCall();
 
-    /// The call of a destructor, which does not wait.
+    /// Begins a destructor's call, without waiting.
     static DriverCall of_destructor(bool used) noexcept { return DriverCall(used, 0); }
-    /// False for a destructor's call after exit(): then no driver is called, and memory that a driver may know stays.
+    /// False for a destructor's call after exit(): then the destructor must call no driver, and not free memory that a
+    /// driver may use.
     bool has_begun() const noexcept { return has_begun_; }
 
 private:
@@ -28,7 +29,8 @@ private:
     bool used_, has_begun_ = true;
 };
 
-/// Deletes objects that this process made in a DriverCall, if drivers may use them and the process does not end.
+/// Deletes objects that this process made, within a DriverCall. Objects that drivers may use are not deleted while the
+/// process ends.
 struct DeleteInCall : DeleteOwn {
     bool used = true;
     template <class T>
@@ -38,8 +40,8 @@ struct DeleteInCall : DeleteOwn {
     }
 };
 
-/// Makes exit() wait. It must be called when drivers are loaded: objects that are loaded later are destroyed before the
-/// wait.
+/// Makes exit() wait for driver calls. Call it after drivers are loaded, because exit() destroys objects of libraries
+/// that are loaded later before it waits.
 void wait_for_driver_calls_at_exit();
 
 }  // namespace csgrt

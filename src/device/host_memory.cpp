@@ -33,7 +33,7 @@ std::uint64_t host_memory() { return memory_of_system().ullTotalPhys; }
 
 #elif defined(__APPLE__)
 
-// macOS frees and compresses memory as it goes, and has no such number.
+// macOS has no such number: it frees and compresses memory on demand.
 std::uint64_t available_host_memory() { return 0; }
 
 std::uint64_t host_memory() {
@@ -84,7 +84,7 @@ std::uint64_t host_memory() {
     const std::uint64_t bytes = of_system("MemTotal:");
     if (bytes != unknown) return bytes;
 #ifdef _SC_PHYS_PAGES
-    const long pages = sysconf(_SC_PHYS_PAGES), page = sysconf(_SC_PAGESIZE);  // /proc is not everywhere
+    const long pages = sysconf(_SC_PHYS_PAGES), page = sysconf(_SC_PAGESIZE);  // some systems have no /proc
     if (pages > 0 && page > 0) return static_cast<std::uint64_t>(pages) * static_cast<std::uint64_t>(page);
 #endif
     return 0;

@@ -5,11 +5,11 @@
 
 namespace csgrt {
 
-/// The bytes that this process can still take: the system's available memory, or the rest of its control group's limit
-/// if it is less (a container). 0 if the system does not say.
+/// The bytes that this process can still take: the system's available memory or, in a container, the rest of its
+/// control group's limit if that is less. 0 if the system does not report a number.
 std::uint64_t available_host_memory();
 
-/// Bytes of memory that the system has in all; 0 if it does not say.
+/// The bytes of the system's whole memory. 0 if the system does not report a number.
 std::uint64_t host_memory();
 
 }  // namespace csgrt

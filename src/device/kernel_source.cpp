@@ -23,7 +23,7 @@ const char* text_of(const std::string& name, const std::string& wanted_by) {
     throw std::logic_error("no kernel file \"" + name + "\", wanted by " + wanted_by);
 }
 
-/// Resolves an include: "geometry/ell.h" and "../shared/layout.h" -> "shared/layout.h".
+/// The name of an included file: "../shared/layout.h" in "geometry/ell.h" is "shared/layout.h".
 std::string resolve(const std::string& includer, std::string_view included) {
     std::string folder = includer.substr(0, includer.find_last_of('/') + 1);  // "" or "geometry/"
     while (included.starts_with("../") && !folder.empty()) {
@@ -34,7 +34,7 @@ std::string resolve(const std::string& includer, std::string_view included) {
     return folder.append(included);
 }
 
-/// The rest of a line that begins with these words, between which there may be spaces; nothing for other lines.
+/// The rest of a line that begins with `words`, which spaces may separate. Nothing for other lines.
 std::optional<std::string_view> after(std::string_view line, std::initializer_list<std::string_view> words) {
     for (const std::string_view word : words) {
         line.remove_prefix(std::min(line.find_first_not_of(" \t"), line.size()));
@@ -67,8 +67,8 @@ public:
         for (int line_number = 1; !rest.empty(); ++line_number) {
             const std::string_view line = rest.substr(0, rest.find('\n'));
             rest.remove_prefix(std::min(line.size() + 1, rest.size()));
-            if (const auto guard = after(line, {"#", "undef", "CSGRT_"}))  // the file of this guard may be included
-                                                                           // once more
+            if (const auto guard = after(line, {"#", "undef", "CSGRT_"}))  // after an #undef of its guard, a file may
+                                                                           // be included again
                 std::erase_if(
                     done_, [&](const std::string& done) { return guard_of(done) == "CSGRT_" + std::string(*guard); });
             if (const std::string_view included = included_file(line); !included.empty()) {

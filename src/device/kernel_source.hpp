@@ -16,15 +16,15 @@ struct KernelFile {
 /// Every file under kernels/, by name. Written by cmake/embed.cmake.
 const std::vector<KernelFile>& kernel_files();
 
-/// Assembles one text of the named files, in the given order. Each `#include "..."` is replaced by the file that it
-/// names, relative to the including file. A file is included once, where it is first needed, so an #include must not
-/// stand inside an #if that may be false. After an #undef of its guard (CSGRT_ELL_H of geometry/ell.h) it may be
-/// included once more. #line marks make a compiler name the true file and line. Throws std::logic_error if there is no
-/// such file: a fault of the library, not of its user.
+/// Joins the named files to one text, in the given order. Each `#include "..."`, whose path is relative to the
+/// including file, is replaced by the file's text. A file is included only the first time, so an #include must not be
+/// inside an #if that may be false. After an #undef of its guard (CSGRT_GEOMETRY_ELL_H for geometry/ell.h) a file may
+/// be included once more. #line directives make a compiler name the true file and line. Throws std::logic_error if a
+/// file is missing, which is a fault of the library.
 std::string assemble_program(const std::vector<std::string>& names);
 
-/// The source of a Program for the device: the text of the named files, or for a native device the name of a program
-/// that was compiled ahead. The name is empty for another method than the default.
+/// The source of a Program for the device: the text of the named files or, for a native device, the name of a program
+/// that was compiled ahead. `native_name`: empty if the method is not the default.
 std::string program_source(const DeviceInfo& device, const Settings& settings, const char* native_name,
                            const std::vector<std::string>& files);
 

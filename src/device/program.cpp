@@ -33,9 +33,8 @@ bool rounds_single_correctly(const Device& device) {
     return config & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT;
 }
 
-/// The key of a compiled program, with everything that it depends on. Devices of one name may differ in their
-/// instructions, as processors of one maker do: the length of their vectors tells most of it, and a driver refuses a
-/// binary that its device cannot run.
+/// The key of a compiled program: everything that the binary depends on. Devices with one name may have different
+/// instructions. The vector width tells most of them apart, and a driver refuses a binary that its device cannot run.
 std::string key_of(const Device& device, const std::string& source, const std::string& options) {
     cl_uint vector = 0;
     check(device.cl().GetDeviceInfo(device.id(), CL_DEVICE_NATIVE_VECTOR_WIDTH_DOUBLE, sizeof vector, &vector, nullptr),
@@ -52,13 +51,13 @@ std::string key_of(const Device& device, const std::string& source, const std::s
 Program::Program(const Device& device, const std::string& source, const std::vector<std::string>& defines, bool single)
     : device_(&device) {
     const DriverCall call(!is_native(device.info()));
-    // -w: PoCL writes to the standard error output how many warnings there were, one for each function that a scene
-    // does not need.
+    // -w: without it, PoCL prints the number of warnings, one for each function that a scene does not need.
     std::string options = std::string("-w -cl-std=CL1.2 -DCSGRT_REAL=") + (single ? "float" : "double");
     if (single && rounds_single_correctly(device)) options += " -cl-fp32-correctly-rounded-divide-sqrt";
     for (const std::string& define : defines) options += " -D" + define;
-    // The bound gives twelve warps of 32 room in a multiprocessor's 65,536 registers. Without it the compiler gave
-    // first hits 178 registers, for ten warps in groups of two: goliath's kernels took 1.10 times as long on an H100.
+    // With 168 registers a thread, twelve warps of 32 threads fit into a multiprocessor's 65,536 registers. Without
+    // this limit the compiler took 178 registers for first hits, so only ten warps fit: goliath's kernels took 1.10
+    // times as long on an H100.
     if (device.info().platform == "NVIDIA CUDA") options += " -cl-nv-maxrregcount=168";
 
     const std::optional<BinaryCache> cache = binary_cache_for(device.info());
@@ -70,8 +69,8 @@ Program::Program(const Device& device, const std::string& source, const std::vec
     if (cache) cache->keep(key, binary());
 }
 
-/// An exception leaves PoCL's compiler when memory runs out, and leaves PoCL locked: nothing is released then, which
-/// would wait for ever.
+/// When memory runs out, an exception leaves PoCL's compiler and PoCL stays locked. Then no object is released, because
+/// a release would wait for ever.
 cl_int Program::build(const std::string& options) const {
     const Driver& cl = device_->cl();
     const cl_device_id id = device_->id();
@@ -84,10 +83,10 @@ cl_int Program::build(const std::string& options) const {
 }
 
 void Program::compile(const std::string& source, const std::string& options) {
-    // PoCL reads a megabyte of declarations, all functions of OpenCL C for all types, before it looks for compiled
-    // binaries: 45 of 60 ms of each start. Without them it takes the used ones from builtins.h. Releases other than the
-    // tested ones may have the declarations elsewhere; a release that does not know these options gets its own
-    // declarations.
+    // Before PoCL looks for compiled binaries, it parses a megabyte of declarations: all functions of OpenCL C for all
+    // types. This takes 45 of 60 ms of each start. The options replace them by builtins.h, which declares the functions
+    // that are used. Other releases than the tested ones may have the declarations elsewhere; a release that refuses
+    // these options gets PoCL's declarations.
     const DeviceInfo& info = device_->info();
     has_own_declarations_ = is_pocl(info) && info.driver.starts_with("3.");
 
@@ -111,7 +110,7 @@ void Program::compile(const std::string& source, const std::string& options) {
     check(code, "clBuildProgram (" + options + ")");
 }
 
-/// Loads a binary. False if the driver refuses it: then it is compiled anew.
+/// Loads a binary. False if the driver refuses the binary: then the source is compiled.
 bool Program::load(const std::string& binary) {
     const Driver& cl = device_->cl();
     const cl_device_id id = device_->id();
@@ -124,7 +123,7 @@ bool Program::load(const std::string& binary) {
     return build("") == CL_SUCCESS;
 }
 
-/// The binary that the driver made of the source; empty if it does not give it.
+/// The binary that the driver made of the source. Empty if the driver does not return it.
 std::string Program::binary() const {
     const Driver& cl = device_->cl();
     std::size_t size = 0;  // of the context's one device
@@ -179,7 +178,7 @@ Event Kernel::queue(std::size_t items, std::size_t group) {
                         std::to_string(group) + ")");
     }
     Event queued(device_->cl(), event);
-    device_->check_end();  // a native device has left out work-items
+    device_->check_end();  // a native device that was stopped has left out work-items
     return queued;
 }
 

@@ -20,11 +20,11 @@ struct LocalMemory {
 /// One kernel of a program, ready to be queued. One thread at a time: OpenCL keeps a kernel's arguments in it.
 class Kernel {
 public:
-    /// Queues `items` work-items in groups of `group`. The last group is filled up, so the kernel must check that its
-    /// number is below `items`. The arguments stand in the order of the kernel's own: a Buffer, a tuple of several,
-    /// LocalMemory, or a plain value of the kernel's very type (cl_uint, cl_double, a struct of
-    /// kernels/shared/layout.h). Does not wait. 0 items: nothing is queued, and the event is empty. Throws Error
-    /// (device_fault, out_of_memory) that names the kernel, or Error (interrupted), see Device::end_by().
+    /// Queues `items` work-items in groups of `group`, and does not wait. The last group is filled up, so the kernel
+    /// must check that its index is below `items`. The arguments have the order of the kernel's parameters: a Buffer, a
+    /// tuple of Buffers, LocalMemory, or a value of exactly the parameter's type (cl_uint, cl_double, a struct of
+    /// kernels/shared/layout.h). 0 items: nothing is queued, and the event is empty. Throws Error (device_fault,
+    /// out_of_memory) that names the kernel, or Error (interrupted), see Device::end_by().
     template <class... Arguments>
     Event launch(std::size_t items, std::size_t group, const Arguments&... arguments) {
         cl_uint position = 0;
@@ -66,23 +66,22 @@ private:
 };
 
 /// OpenCL C source, compiled for one device. `source`: see program_source. Each of `defines` becomes a -D ("COUNT=3",
-/// "HAS_TORUS"). `real` is double, or float if `single`. In float, division and root are rounded correctly if the
-/// device can do so, as every result in double is.
+/// "HAS_TORUS"). `real` is double, or float if `single`. In float, division and square root are rounded correctly if
+/// the device can do so. In double, every result is rounded correctly.
 class Program {
 public:
-    /// Compiles the source, or takes a binary that was compiled before, in this process or another, if the driver does
-    /// not do so itself (binary_cache.hpp). Throws Error (device_fault) with the compiler's message if the source does
-    /// not compile.
+    /// Compiles the source. If the driver keeps no compiled programs itself, takes a binary from an earlier compilation
+    /// (binary_cache.hpp). Throws Error (device_fault) with the compiler's message if the source does not compile.
     Program(const Device& device, const std::string& source, const std::vector<std::string>& defines = {},
             bool single = false);
 
     /// Throws Error (device_fault) if the program has no kernel of that name.
     Kernel kernel(const std::string& name) const;
-    /// The compiler's messages; empty without any, and for a program that was compiled before.
+    /// The compiler's messages. Empty for a program from the cache.
     const std::string& build_log() const noexcept { return build_log_; }
-    /// Whether the program was compiled before, and not now.
+    /// Whether the program's binary is from the cache.
     bool is_from_cache() const noexcept { return is_from_cache_; }
-    /// Whether it was built with the declarations of builtins.h instead of the driver's.
+    /// Whether the program was built with the declarations of builtins.h instead of the driver's.
     bool has_own_declarations() const noexcept { return has_own_declarations_; }
 
 private:

@@ -1,4 +1,5 @@
-// Queued transfers: the host queues more work before it waits for them. They own the memory that the transfers need.
+// Queued transfers: the host queues them and goes on with other work. The objects own the memory that the transfers
+// need.
 #pragma once
 
 #include <bit>
@@ -26,8 +27,9 @@ public:
         if (event_ && event_.cl().is_lost) keep_for_ever(std::make_shared<std::vector<std::byte>>(std::move(bytes_)));
     }
 
-    /// Copies the values to the buffer's begin, which is made large enough, once the queued commands are done. Waits
-    /// only for the upload before this one. Throws Error (device_fault, out_of_memory), also for the upload before.
+    /// Makes the buffer large enough, and queues a copy of the values to its begin, after all queued commands. Waits
+    /// only for this object's previous upload. Throws Error (device_fault, out_of_memory), also about the previous
+    /// upload.
     template <class T>
     void start(Buffer& buffer, std::span<const T> values) {
         static_assert(std::is_trivially_copyable_v<T>);
@@ -43,7 +45,7 @@ private:
     Event event_;
 };
 
-/// A transfer from device to host, of few bytes, which need not wait for the copies that a CopyFeed still has to make.
+/// A transfer of few bytes from device to host, which does not wait for all copies of a CopyFeed.
 class QueuedRead {
 public:
     QueuedRead(Device& device, std::string name) : device_(&device), name_(std::move(name)) {}
@@ -51,26 +53,26 @@ public:
     QueuedRead& operator=(const QueuedRead&) = delete;
     ~QueuedRead() { wait_until_done(event_); }
 
-    /// Registers a read of `bytes` of the buffer from `offset` on, as they are when the queued commands are done.
+    /// Registers a read of `bytes` of the buffer from `offset` on. copy() makes the read.
     void start(const Buffer& buffer, std::size_t bytes, std::size_t offset = 0) {
         buffer_ = &buffer;
         bytes_ = bytes;
         offset_ = offset;
     }
     void cancel() { buffer_ = nullptr; }
-    /// Queues the copy, if start() was called. Does not wait, but the device must have finished all commands that write
-    /// the buffer; until wait() the buffer must stay as it is. If several copies are queued before one wait, their
-    /// bytes come together.
+    /// Queues the copy, if start() was called. Does not wait. The device must have finished all commands that write the
+    /// buffer, and the buffer must not change until wait(). Copies that are queued before one wait arrive together.
     void copy() {
         if (buffer_ == nullptr) return;
         if (!memory_ || memory_->size() < bytes_) {
-            wait_until_done(event_);  // if nobody waited for it
+            wait_until_done(event_);  // in case wait() was not called
             memory_.reset();
-            memory_.emplace(*device_, name_, std::bit_ceil(bytes_));  // new memory takes half a millisecond
+            memory_.emplace(*device_, name_, std::bit_ceil(bytes_));  // rounded up, because new memory takes half a
+                                                                      // millisecond
         }
         event_ = std::exchange(buffer_, nullptr)->copy_read(memory_->data(), bytes_, offset_);
     }
-    /// The first `count` values of the read, once they are there; they stay until the next copy(). Throws Error
+    /// Waits for the copy, and returns the first `count` values, which are valid until the next copy(). Throws Error
     /// (device_fault, out_of_memory) if the copy failed; only the event of the command that wrote the values reports
     /// its failure.
     template <class T>
@@ -85,9 +87,10 @@ public:
 private:
     Device* device_;
     std::string name_;
-    const Buffer* buffer_ = nullptr;  ///< the buffer to read from
+    const Buffer* buffer_ = nullptr;  ///< the buffer of start()
     std::size_t bytes_ = 0, offset_ = 0;
-    std::optional<PinnedMemory> memory_;  ///< pinned: to other memory a GPU's driver would copy before the call returns
+    std::optional<PinnedMemory> memory_;  ///< pinned, because for other memory a GPU's driver would make the copy
+                                          ///< before the call returns
     Event event_;
 };
 

@@ -1,5 +1,5 @@
-// What calls answer, and what they are given beside settings and views: the descriptions of these public structs, as
-// requests.hpp has them. JSON's keys with a point are members of an object: "ms.load".
+// Descriptions of the public structs that calls return, and of further arguments (requests.hpp describes settings and
+// views). A JSON key with a point is a member of an inner object: "ms.load".
 #pragma once
 
 #include <csgrt/device.hpp>
@@ -59,7 +59,7 @@ inline constexpr auto of<PixelRectangle> = Form{
     required("height", &PixelRectangle::height, integer),
 };
 
-/// In C a bit each, in this order; `is_off`: the bit stands for false.
+/// In C each member is a bit, in this order. `is_off`: a set bit means false.
 template <>
 inline constexpr auto of<Fields> = Form{
     plain("field"),

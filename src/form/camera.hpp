@@ -1,4 +1,5 @@
-// A camera that is given in part: what is given replaces what it contradicts in the scene's.
+// Cameras of which only some members are given: these replace members of the scene's view_size, which the eye
+// contradicts camera that contradict them.
 #pragma once
 
 #include <string>
@@ -9,7 +10,8 @@
 
 namespace csgrt {
 
-/// Members of a camera that exclude each other, with the reason. `in_perspective`: only there.
+/// Two members of a camera that exclude each other, and the reason. `in_perspective`: only if the camera is
+/// perspective.
 struct CameraConflict {
     std::string_view member, other;
     const char* reason;
@@ -27,7 +29,7 @@ inline std::string text_of(const CameraConflict& conflict) {
            conflict.reason;
 }
 
-/// The first conflict among the members that `is_given(name)` tells, or null.
+/// The first conflict among the members for which is_given(name) is true, or null.
 template <class IsGiven>
 const CameraConflict* conflict_of(const Camera& given, const IsGiven& is_given) {
     for (const CameraConflict& conflict : camera_conflicts)
@@ -36,7 +38,7 @@ const CameraConflict* conflict_of(const Camera& given, const IsGiven& is_given) 
             return &conflict;
     return nullptr;
 }
-/// The same among the members that have values of their own: angles always have one.
+/// The first conflict among the optional members that have values. Angles always have values, and do not count.
 inline const CameraConflict* conflict_of(const Camera& camera) {
     return conflict_of(camera, [&](std::string_view name) {
         bool is_given = false;
@@ -48,12 +50,12 @@ inline const CameraConflict* conflict_of(const Camera& camera) {
     });
 }
 
-/// `camera` with the members of `given` that is_given(name) tells, without what they contradict.
+/// `camera`, with the members of `given` for which is_given(name) is true, and without members that contradict them.
 template <class IsGiven>
 Camera merged(Camera camera, const Camera& given, const IsGiven& is_given) {
     const bool angles = is_given("azimuth") || is_given("elevation");
     if (angles) camera.eye.reset();
-    if (angles || is_given("eye")) camera.up.reset();  // upright
+    if (angles || is_given("eye")) camera.up.reset();  // then the camera is upright
     if (is_given("center") || is_given("look_at")) {
         camera.center.reset();
         camera.look_at.reset();

@@ -1,7 +1,7 @@
-// How the members of a struct are described: once, for all that goes over them. Of a scene these are JSON's reader and
-// writer, the schema and the checks; of what a caller asks for (requests.hpp), the command's options, C's structs,
-// Python's attributes and the page's requests. A description, form::of<S>, has a line a member: its keys, where it is
-// in the struct, its kind, what is allowed, and what it means.
+// Descriptions of structs: one description serves all code that handles a struct's members. For a scene these are
+// JSON's reader and writer, the schema and the checks. For settings and views (requests.hpp) they are the command's
+// options, C's structs, Python's attributes and the page's requests. A description, form::of<S>, has a line for each
+// member: its names, a pointer to the member, its kind, a rule for its values, and a sentence on its meaning.
 #pragma once
 
 #include <array>
@@ -16,13 +16,13 @@
 
 namespace csgrt::form {
 
-// ---- Kinds: what a member is, and how a file writes it ----
+// ---- Kinds: a member's type, and its form in a file ----
 
 struct Number {};
 struct Length {};   ///< a number in the file's unit
-struct Lengths {};  ///< a place, or the way from one to another: a vector in the file's unit
-struct Vector {};   ///< as it stands
-struct Axis {};     ///< the same, of any length but 0
+struct Lengths {};  ///< a point or a displacement: a vector in the file's unit
+struct Vector {};   ///< a vector that is not scaled by the file's unit
+struct Axis {};     ///< a vector that is not scaled, of any length but 0
 struct Color {};
 struct Count {};  ///< from 0 to 2^32 - 1
 struct Whole {
@@ -35,7 +35,7 @@ struct Triangle {};  ///< three indices
 struct Uv {};        ///< two lengths
 /// A vector that is made a unit vector.
 struct Direction {
-    bool may_be_zero;  ///< and stays it, for the checks to find
+    bool may_be_zero;  ///< a zero vector stays 0, and the checks report it
 };
 /// The values of an enumeration from `first` on.
 template <std::size_t count>
@@ -49,9 +49,9 @@ struct Object {};
 template <class Item>
 struct List {
     Item item;
-    std::size_t least = 0, most = std::numeric_limits<std::size_t>::max();  ///< items
+    std::size_t least = 0, most = std::numeric_limits<std::size_t>::max();  ///< numbers of items
 };
-template <class Item, class... Counts>  // clang 14 deduces no aggregates
+template <class Item, class... Counts>  // a guide, because clang 14 deduces no aggregates
 List(Item, Counts...)->List<Item>;
 /// A list of one value for each of a mesh's `faces`, or one value for all.
 template <class Item>
@@ -65,39 +65,39 @@ struct Corners {
     std::size_t count;
 };
 struct Ends {};    ///< `start` and `end`, two indices
-struct Curves {};  ///< of a sketch, with what says that one is reversed
+struct Curves {};  ///< a sketch's curves, and flags that tell which curves are reversed
 struct Turn {};    ///< an angle in radians, which a file gives in degrees
 /// Rows of numbers from 0 to `most`, as strings; with `marks`, '.' is 0 and '#' is `most`.
 struct Cells {
     std::uint16_t most;
     bool marks;
 };
-/// A matrix, and which of its columns are lengths. The last one, a place, always is; x, y and z are if they count cells
-/// or steps of height, and are not if they are millimetres already.
+/// A matrix. `lengths`: which columns the file's unit scales. The last column, a point, always is scaled. The columns
+/// of x, y and z are scaled if these count cells or steps of height, and are not if these are lengths already.
 struct Placement {
     std::array<bool, 4> lengths;
 };
-/// A whole number of a type of its own, from `low` on, which stands for "not given" where it is 0 and `low` is not.
+/// A whole number from `low` to `high`. If `low` is above 0, the number 0 means "not given".
 struct Amount {
     std::uint64_t low = 0, high = std::numeric_limits<std::uint64_t>::max();
 };
-struct Bytes {};  ///< of memory, which the command takes as "2G", too
+struct Bytes {};  ///< an amount of memory; the command also reads "2G"
 struct Texts {};
 struct Boxed {};  ///< a box: its low and its high corner
 struct Planes {};
-/// One of a table's values, which has a name (form/names.hpp).
+/// A value of an enumeration, by its name in a table (form/names.hpp).
 template <class Names, class Offered = Names>
 struct Named {
     const Names* names;
-    const Offered* offered;  ///< those that the command takes
+    const Offered* offered;  ///< the names that the command accepts
     constexpr Named(const Names* all) : names(all), offered(all) {}
     constexpr Named(const Names* all, const Offered* some) : names(all), offered(some) {}
 };
 template <class Names>
 Named(const Names*) -> Named<Names>;
-/// What each interface has by hand.
+/// A member that each interface handles with its own code.
 struct Special {};
-/// What only the schema is told; its reader is written by hand.
+/// A member whose reader is handwritten. `schema`: its text in the schema.
 struct Other {
     const char* schema;
 };
@@ -125,10 +125,10 @@ inline constexpr Whole integer{std::numeric_limits<int>::min(), std::numeric_lim
 template <class S>
 inline constexpr Object<S> object{};
 
-// ---- Rules: what is allowed. A fault's sentence begins with what the member is called. ----
+// ---- Rules: the allowed values. `called`: the member's name at the beginning of an error's sentence ----
 
 struct Any {};
-/// Of a number, or of each number of a list.
+/// The bounds of a number, or of each number of a list.
 struct Bounds {
     double low, high;
     bool with_low, with_high;
@@ -146,12 +146,12 @@ constexpr Bounds positive(const char* called = "") {
 constexpr Bounds not_negative(const char* called = "") {
     return {0, unlimited, true, true, called, "must be 0 or more"};
 }
-/// Of a vector: a length other than 0.
+/// The rule that a vector's length is not 0.
 struct Nonzero {
     const char* called;
 };
 constexpr Nonzero nonzero(const char* called = "") { return {called}; }
-/// The same, and perpendicular to another.
+/// The rule that a vector's length is not 0, and that the vector is perpendicular to another one.
 template <class S>
 struct Across {
     const char* called;
@@ -160,14 +160,14 @@ struct Across {
 };
 template <class S>
 Across(const char*, Vec3 S::*, const char*) -> Across<S>;
-/// Of the third of three axes: they span a volume.
+/// The rule of the third of three axes: the axes span a volume.
 template <class S>
 struct Spanning {
     Vec3 S::*axes[3];
     const char* called[3];
 };
-/// Of a list of objects: what they are called, what comes before their numbers in sentences, and the sentence about
-/// fewer than the least (null: other checks tell).
+/// The words for a list of objects in errors: their name, the text before an object's number, and the sentence about
+/// too short a list (null: other checks report it).
 struct Items {
     const char* called;
     const char* before;
@@ -178,42 +178,42 @@ struct Items {
 
 enum class Given : std::uint8_t {
     required,
-    optional,  ///< has a default, with which it is not written
-    filled,    ///< has a default, and is written
+    optional,  ///< has a default; the writer leaves the default out
+    filled,    ///< has a default; the writer always writes the member
 };
 
-/// What a member is called: in JSON, and in BRL-CAD's databases, if those have a solid's numbers one after another.
+/// A member's names: in JSON, in code, and in those of BRL-CAD's databases that hold a solid's numbers in a row.
 struct Key {
     std::string_view json;
     const char* brlcad = "";
-    std::string_view member = json;  ///< in C++, C and Python
+    std::string_view member = json;  ///< the name in C++, C and Python
     constexpr Key(std::string_view in_json) : json(in_json) {}
     constexpr Key(const char* in_json, const char* in_brlcad = "") : json(in_json), brlcad(in_brlcad) {}
     constexpr Key(const char* in_json, const char* in_brlcad, const char* in_code)
         : json(in_json), brlcad(in_brlcad), member(in_code) {}
 };
 
-/// What a member concerns: a command has the options of some of these groups.
+/// A member's group. A command has the options of some groups.
 enum class Concern : std::uint8_t {
-    model,    ///< what the model is
-    work,     ///< who computes, and with how much
-    either,   ///< the same, of commands that compute on a device or on the reference
-    picture,  ///< what a picture shows
+    model,    ///< the model
+    work,     ///< the devices and the resources that compute
+    either,   ///< as `work`, for commands that compute on a device or on the reference
+    picture,  ///< the picture
 };
 
-/// The command's option that sets a member. No name: there is none, or it is made by hand.
+/// The command's option that sets a member. Without a name, there is no option, or handwritten code defines it.
 struct Option {
     Concern concern = Concern::picture;
     const char* name = "";
-    const char* value = "";     ///< what its value is called; flags and choices need none
-    const char* absent = "";    ///< what holds "if not given"
-    const char* expected = "";  ///< what a wrong value is not; "": as the kind says
-    const char* excludes = "";  ///< another option's name
+    const char* value = "";     ///< the value's name in the help; flags and choices have none
+    const char* absent = "";    ///< the words before "if not given" in the help
+    const char* expected = "";  ///< the words after "expected" in an error; "": the kind's
+    const char* excludes = "";  ///< the name of an option that must not be given, too
     bool changes_answers = true;
-    bool is_off = false;  ///< a flag that sets false
+    bool is_off = false;  ///< the flag sets false
 };
 
-/// `At`: a pointer to the member, or what is called with the struct.
+/// One line of a description. `At`: a pointer to the member, or a function object that takes the struct.
 template <Given how, class At, class Kind, class Rule>
 struct Member {
     static constexpr Given given = how;
@@ -225,15 +225,15 @@ struct Member {
     Option option = {};
 };
 
-/// No member: what goes over the members passes over it.
+/// Stands for no member.
 struct Nothing {};
 inline constexpr Nothing nothing{};
-/// The struct.
+/// Stands for the struct itself.
 struct Itself {
     constexpr auto& operator()(auto& s) const { return s; }
 };
 inline constexpr Itself itself{};
-/// A member's member.
+/// Stands for a member of a member.
 template <class Outer, class Inner>
 struct Inside {
     Outer outer;
@@ -271,18 +271,18 @@ inline constexpr Maker<Given::filled> filled{};
 
 // ---- Forms ----
 
-/// The name is that of the schema's definition, and of a solid's "type".
+/// The head of a description. `name`: of the schema's definition, and for a solid its "type".
 struct Head {
     const char* name;
     const char* about;
     bool has_type;
-    bool is_model;  ///< checked when the scene is validated; others by their reader
+    bool is_model;  ///< true: validation of the scene checks the values; false: the reader does
 };
 constexpr Head solid(const char* called, const char* about = "") { return {called, about, true, true}; }
 constexpr Head part(const char* called, const char* about = "") { return {called, about, false, true}; }
-/// A solid by the numbers that a person knows: JSON's reader makes one of the model's of it.
+/// A solid with simple parameters, such as a box or a sphere, which JSON's reader turns into one of the model's solids.
 constexpr Head simple(const char* called, const char* about = "") { return {called, about, true, false}; }
-/// An object of a file that is no solid.
+/// An object in a file that is not a solid.
 constexpr Head plain(const char* called, const char* about = "") { return {called, about, false, false}; }
 
 template <class... Members>
@@ -293,7 +293,7 @@ struct Form {
 };
 
 struct Undescribed {};
-/// The description of S; a struct without one does not compile where it is asked for.
+/// The description of S. Code that uses it for a struct without a description does not compile.
 template <class S>
 inline constexpr auto of = Undescribed{};
 
@@ -302,13 +302,13 @@ constexpr void for_members(const Form<Members...>& form, Each each) {
     std::apply([&](const auto&... member) { (each(member), ...); }, form.members);
 }
 
-/// A member of a struct, which `at` points at or is called with.
+/// The described member of a struct.
 template <class Member, class S>
 constexpr auto& member_of(const Member& member, S& s) {
     return std::invoke(member.at, s);
 }
 
-/// What a file means that does not give optional members.
+/// The struct's defaults, which hold for members that a file does not give.
 template <class S>
 S usual() {
     return {};

@@ -1,5 +1,5 @@
-// The names of the enumerations that users see: in JSON, in the command, in Python and, in capitals, in C. Those of
-// Precision and Tolerance are public (csgrt/method.hpp).
+// The names of enumerations' values in JSON, in the command, in Python and, in capitals, in C. The names of Precision
+// and Tolerance are in csgrt/method.hpp.
 #pragma once
 
 #include <csgrt/error.hpp>
@@ -39,7 +39,7 @@ inline constexpr NameOf<Status> status_names[] = {
     {"file", Status::file},           {"device_fault", Status::device_fault},
     {"differs", Status::differs},     {"interrupted", Status::interrupted},
 };
-/// With those that no option of the command has.
+/// All values, also those that no option of the command has.
 inline constexpr NameOf<Precision> every_precision[] = {
     {"double", Precision::double_}, {"single", Precision::single}, {"quad", Precision::quad}};
 inline constexpr NameOf<Tolerance> every_tolerance[] = {{"length", Tolerance::length},
@@ -49,7 +49,7 @@ inline constexpr NameOf<Tolerance> every_tolerance[] = {{"length", Tolerance::le
 
 namespace form {
 
-/// The kind of a member whose values have these names, from value number `first` on.
+/// The kind of a member whose values have these names. The names before `first` are left out.
 template <std::size_t first = 0, class Value, std::size_t count>
 constexpr Words<count - first> words_of(const NameOf<Value> (&names)[count]) {
     Words<count - first> words{{}, first};

@@ -1,6 +1,5 @@
-// What a caller can ask for: the descriptions of the public structs that callers fill. Each sentence stands in the C++
-// header, too (tests/form/requests_test.cpp compares them). The lines have the order of C's members: new ones come
-// last.
+// Descriptions of the public structs that callers fill. Each sentence is in the C++ header, too
+// (tests/form/requests_test.cpp compares them). The lines have the order of C's members, so new lines come last.
 #pragma once
 
 #include <csgrt/scene_io.hpp>
@@ -159,7 +158,7 @@ inline constexpr auto of<View> = Form{
              "No background: red, green, blue and alpha are 0 where a ray hits nothing.", {.name = "--transparent"}),
 };
 
-/// A member's sentence, with its bounds and with what the number stands for that means "not given".
+/// A member's sentence, with its bounds and with the meaning of the number that stands for "not given".
 template <class Member, class Value>
 std::string whole_sentence(const Member& member, const Value& usual) {
     std::string sentence = member.help;

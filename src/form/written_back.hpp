@@ -1,5 +1,5 @@
-// The command that draws a picture again, from what drew it: for pictures, the page and Python. Its options are those
-// that the descriptions have; what one option says about two members, or several options about one, is here.
+// Writes the command that draws a picture again, for pictures, the page and Python. Most options follow from the
+// descriptions. Options that set two members, and members that several options set, have code here.
 #pragma once
 
 #include <optional>
@@ -15,7 +15,7 @@ namespace csgrt {
 
 inline std::string shortest(const Vec3& v) { return shortest(v.x) + "," + shortest(v.y) + "," + shortest(v.z); }
 
-/// " --samples 4": one member's option, as the command reads it. `usual`: what needs no option.
+/// One member's option, for example " --samples 4". Empty if the value is `usual`.
 template <class Member, class Value>
 std::string option_text(const Member& member, const Value& value, const std::optional<Value>& usual = {}) {
     const std::string name = std::string(" ") + member.option.name;
@@ -43,7 +43,7 @@ std::string option_text(const Member& member, const Value& value, const std::opt
     }
 }
 
-/// The options for all that changes answers and is not as usual.
+/// The options for members that change answers and do not have their defaults.
 template <class S>
 std::string options_text(const S& given) {
     const S usual{};
@@ -61,7 +61,8 @@ std::string options_text(const S& given) {
     return text;
 }
 
-/// Whole, since a scene may have a camera of its own. An eye has no angles.
+/// The options for all members of a camera, because the scene may have another camera. With an eye, the angles are left
+/// out.
 inline std::string options_text(const Camera& camera) {
     std::string text;
     form::for_members(form::of<Camera>, [&](const auto& member) {
@@ -85,7 +86,7 @@ inline std::string options_text(const std::vector<Look>& looks) {
     return text;
 }
 
-/// `tolerance`: millimetres; none: the settings' own rule.
+/// The option for a tolerance in millimetres, or without `tolerance` for the settings' own.
 inline std::string tolerance_text(const Settings& settings, std::optional<double> tolerance = {}) {
     if (tolerance) return " --tolerance " + shortest(*tolerance);
     if (settings.tolerance_rule != Tolerance::length)
@@ -93,7 +94,7 @@ inline std::string tolerance_text(const Settings& settings, std::optional<double
     return settings.tolerance >= 0 ? " --tolerance " + shortest(settings.tolerance) : std::string();
 }
 
-/// What stands behind `csgrt` to load a model: a file, objects of it and options.
+/// The words after `csgrt` that load a model: a file, its objects, and options.
 inline std::string model_words(const std::string& scene, const std::vector<std::string>& objects,
                                const LoadOptions& load, const Settings& settings,
                                std::optional<double> tolerance = {}) {
@@ -102,7 +103,7 @@ inline std::string model_words(const std::string& scene, const std::vector<std::
     return text + options_text(load) + options_text(settings) + tolerance_text(settings, tolerance);
 }
 
-/// What stands behind that to draw.
+/// The options that draw a view.
 inline std::string drawing_options(const View& view, const std::vector<Look>& looks) {
     return " --size " + std::to_string(view.width) + "x" + std::to_string(view.height) + options_text(view.camera) +
            options_text(view) + options_text(looks);

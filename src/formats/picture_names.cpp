@@ -1,4 +1,4 @@
-// Picture names: the meaning of a picture's ids, for its header.
+// Picture names: the names of a picture's regions and solids, for its header.
 #include <csgrt/renderer.hpp>
 
 #include <cstddef>
@@ -12,14 +12,14 @@ namespace csgrt {
 
 namespace {
 
-/// Adds {"17": "/all.g/x.r"} of the ids that occur; no attribute if the picture has no such channel.
+/// Adds an attribute such as {"17": "/all.g/x.r"} with the ids that occur, if the picture has the channel.
 template <class Infos, class Name>
 void describe(Image& image, const char* channel, const char* attribute, const Infos& infos, Name name) {
     if (!image.has_channel(channel)) return;
     std::vector<bool> occurs(infos.size() + 1);
     std::uint32_t last = 0;
     for (const std::uint32_t number : image.ids(channel)) {
-        if (number == last) continue;  // as for most pixels
+        if (number == last) continue;  // most pixels have the id of the pixel before
         last = number;
         if (number < occurs.size()) occurs[number] = true;
     }

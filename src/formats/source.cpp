@@ -27,7 +27,7 @@ namespace {
 
 namespace {
 
-/// The file of this folder that was probably meant.
+/// The file in the path's folder that was probably meant.
 std::string nearest_file(const std::filesystem::path& path) {
     namespace fs = std::filesystem;
     constexpr std::size_t most = 10'000;
@@ -84,7 +84,7 @@ std::vector<std::string> file_folders_of(const std::string& model, const std::ve
 std::string read_standard_input() { return read_all(stdin, standard_input, 0); }
 
 void Findings::add(std::size_t offset, std::string object, std::string message, std::string suggestion) {
-    if (list_.full()) return list_.leave_out();  // without the search for its place
+    if (list_.full()) return list_.leave_out();  // only counted: its place is not searched
     list_.add(
         {source_.place(offset, std::move(object)), std::move(message), std::move(suggestion), source_.excerpt(offset)});
 }

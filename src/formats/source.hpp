@@ -1,4 +1,4 @@
-// Sources: a file in memory, the places in it, and a reader's findings. Shared by every format.
+// Sources: files in memory, places in them, and a reader's findings. All formats share this.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,8 @@
 
 namespace csgrt {
 
-/// The largest file that is read. Real scenes are a hundred times smaller; an endless device must not fill the memory.
+/// The largest file that is read. The limit is a hundred times larger than real scenes; it keeps an endless device from
+/// filling the memory.
 inline constexpr std::size_t max_file_bytes = std::size_t{256} << 20;
 
 /// The bytes of a file. Throws Error (file) if it cannot be read or is larger than max_file_bytes.
@@ -24,22 +25,22 @@ std::vector<std::string> file_folders_of(const std::string& model, const std::ve
 std::string read_standard_input();
 inline constexpr const char* standard_input = "standard input";
 
-/// A file, as far as a finding needs it. Offsets are bytes from the file's start.
+/// The interface of a file for findings. Offsets are bytes from the file's start.
 class Source {
 public:
     virtual Place place(std::size_t offset, std::string object = {}) const = 0;
-    /// The text at the offset, for a person; empty if it would not help.
+    /// The text around the offset, for a message. Empty for binary files.
     virtual std::string excerpt(std::size_t offset) const = 0;
 
-    /// The folders below which the files that it may name lie. None: it may name no file, as a scene from memory.
+    /// Folders of the files that this file may name. Empty: it may name no files, for example because it was in memory.
     std::vector<std::string> file_folders;
 
 protected:
     ~Source() = default;
 };
 
-/// Thrown inside a reader to give up one record. The reader turns it into a finding and goes on with the next record;
-/// it never leaves the reader.
+/// A reader throws a Fault to give up one record, catches it, adds a finding and goes on with the next record. A Fault
+/// never leaves the reader.
 struct Fault {
     std::size_t offset = 0;
     std::string message;
@@ -49,7 +50,7 @@ struct Fault {
 /// The action for a tolerated fault of an attribute or a setting.
 inline constexpr const char* passed_over = "passed over";
 
-/// The faults of one file, reported all at once.
+/// The faults of one file, which are reported together.
 class Findings {
 public:
     /// Faults that a lenient scene tolerates go to `tolerated`.
@@ -66,13 +67,13 @@ public:
     bool is_lenient() const noexcept { return tolerated_ != nullptr; }
     Place place(std::size_t offset, const std::string& object) const { return source_.place(offset, object); }
     bool empty() const noexcept { return list_.empty(); }
-    /// Whether further findings are counted and not shown: they need no suggestion.
+    /// Whether further findings are only counted, so that they need no suggestion.
     bool full() const noexcept { return list_.full(); }
-    /// Notes that the reader gives up: there may be more than it found.
+    /// Notes that the reader gives up, so that there may be further faults.
     void stop() noexcept { list_.stop(); }
 
-    /// Throws Error (scene) with the findings, in the order of the file, and the number of further ones; does nothing
-    /// if there are none.
+    /// Throws Error (scene) if there are findings: with the findings in the file's order, and the number of those that
+    /// are only counted.
     void throw_if_any();
 
 private:

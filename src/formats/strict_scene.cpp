@@ -33,7 +33,8 @@ Scene strict_scene(const Scene& scene) {
     Names names(scene);
     std::vector<Warning> warnings;
     validate(scene, names, {}, false, warnings);
-    // The empty combination replaces members that exist: they close a cycle, or their matrices are not transforms.
+    // The empty combination `hole` replaces members whose objects exist, but which close a cycle or whose matrices are
+    // not transforms.
     std::string hole = "left_out";
     while (names.find(hole) != Names::none) hole += "_";
     Scene result = scene;

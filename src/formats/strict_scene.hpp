@@ -1,11 +1,11 @@
-// Repair: a lenient scene as a strict one.
+// Strict scene: turns a lenient scene into a strict one.
 #pragma once
 
 #include <csgrt/scene.hpp>
 
 namespace csgrt {
 
-/// The scene with an empty combination for everything that its top objects use and that is left out of them. Solids of
+/// The scene with empty combinations in place of objects and members that compilation would leave out. Solids of
 /// unknown types stay.
 Scene strict_scene(const Scene& scene);
 

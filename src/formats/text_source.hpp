@@ -1,4 +1,4 @@
-// Text source: a text file in memory, and places in it. Shared by every text format.
+// Text source: a text file in memory, and places in it. All text formats share this.
 #pragma once
 
 #include <cstddef>
@@ -22,7 +22,7 @@ public:
 
     const std::string& name() const noexcept { return name_; }
     std::string_view text() const noexcept { return text_; }
-    /// The beginning of the text: behind a byte order mark.
+    /// The beginning of the text, after a byte order mark.
     std::size_t begin() const noexcept { return text_.starts_with(byte_order_mark) ? byte_order_mark.size() : 0; }
 
     /// Line and column (in bytes, from 1) of an offset; `object` becomes the pointer.

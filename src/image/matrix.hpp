@@ -5,7 +5,8 @@
 
 namespace csgrt {
 
-/// OpenEXR's matrices apply to row vectors, p' = p M, csgrt's to column vectors: one is the other's transpose.
+/// OpenEXR's matrices multiply row vectors, p' = p M, and csgrt's multiply column vectors. So each is the other's
+/// transpose.
 inline std::vector<float> transpose(const std::vector<float>& matrix) {
     std::vector<float> result(16);
     for (int row = 0; row < 4; ++row) {

@@ -41,7 +41,7 @@ Image read(const std::string& path) {
             throw_from(path + ": cannot read: ", input->geterror());
     };
     const auto holds_ids = [&](std::size_t c) { return spec.channelformat(static_cast<int>(c)) == OIIO::TypeUInt32; };
-    // If they were converted to floats, whole numbers would become parts of the greatest.
+    // Ids are read again as whole numbers below, because as floats they become fractions of the largest whole number.
     read_as(OIIO::TypeFloat, 0, count, interleaved.data());
 
     std::vector<std::size_t> order(count);
@@ -66,7 +66,7 @@ Image read(const std::string& path) {
     }
     for (const OIIO::ParamValue& attribute : spec.extra_attribs) {
         const std::string name = attribute.name().string();
-        if (name == "compression" || name.starts_with("oiio:")) continue;  // of the file, not of the picture
+        if (name == "compression" || name.starts_with("oiio:")) continue;  // a property of the file, not of the picture
         if (attribute.type() == OIIO::TypeString) {
             image.attributes[name] = attribute.get_string();
         } else if (attribute.type() == OIIO::TypeMatrix) {

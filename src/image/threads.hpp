@@ -1,4 +1,5 @@
-// Threads of OpenImageIO and of OpenEXR: of one process, and with csgrt's floating-point state. And their errors.
+// Threads of OpenImageIO and OpenEXR, which have csgrt's floating-point state and exist in one process only; and errors
+// of these libraries.
 #pragma once
 
 #include <string>
@@ -11,15 +12,16 @@
 
 namespace csgrt {
 
-/// Throws an error of OpenImageIO, which turns all exceptions into text.
+/// Throws an error that OpenImageIO reported as text.
 [[noreturn]] inline void throw_from(const std::string& what, const std::string& why) {
     throw Error(why.find("std::bad_alloc") == why.npos ? Status::file : Status::out_of_memory, what + why);
 }
 
 inline FirstUser pictures_user;
 
-/// Calls work() on a thread from which the libraries' threads inherit their state. Throws Error (file) in a child of
-/// the process that first did so: it would wait for threads that do not exist in it.
+/// Calls work() on a thread with csgrt's floating-point state, which the libraries' threads inherit. Throws Error
+/// (file) in a fork of the process that called this first, because work() would wait for threads that do not exist
+/// there.
 template <class Work>
 auto with_image_threads(const std::string& name, const Work& work) {
     if (!pictures_user.is_this_process())

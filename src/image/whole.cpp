@@ -10,7 +10,7 @@ namespace csgrt {
 
 namespace {
 
-/// Reads a file from its front. Past the end there is nothing, and `good` becomes false.
+/// Reads bytes one after the other. A read beyond the end returns nothing, and sets `good` to false.
 struct Bytes {
     std::span<const unsigned char> rest;
     bool good = true;
@@ -28,7 +28,7 @@ struct Bytes {
         for (std::size_t i = taken.size(); i-- > 0;) value = value << 8 | taken[i];
         return value;
     }
-    /// Up to the next 0, which is passed.
+    /// The text before the next 0 byte. The 0 is skipped, too.
     std::string word() {
         const auto taken = take(static_cast<std::size_t>(std::find(rest.begin(), rest.end(), 0) - rest.begin()));
         take(1);
@@ -36,7 +36,8 @@ struct Bytes {
     }
 };
 
-/// OpenImageIO gives some attributes of others another name: it writes ImageDescription as comments.
+/// Whether the header has csgrt's own attributes. Others are not checked, because OpenImageIO renames some:
+/// ImageDescription becomes "comments".
 bool has_attributes(const std::set<std::string>& names, const Image& image) {
     for (const auto& [name, text] : image.attributes)
         if (name.starts_with("csgrt:") && !text.empty() && !names.contains(name)) return false;
@@ -45,16 +46,16 @@ bool has_attributes(const std::set<std::string>& names, const Image& image) {
 
 }  // namespace
 
-// OpenEXR's file layout: attributes to an empty name, where each block of 16 rows begins, the blocks.
+// An EXR file has attributes, which an empty name ends, then the offsets of the blocks of 16 rows, then the blocks.
 bool is_whole(std::span<const unsigned char> exr, const Image& image) {
     constexpr int rows_a_block = 16;
     constexpr std::uint64_t magic = 20000630, version = 2;
     Bytes bytes{exr};
     if (bytes.number(4) != magic || bytes.number(1) != version) return false;
-    bytes.take(3);  // flags: long names, say
+    bytes.take(3);  // flags, for example for long names
     std::set<std::string> names;
     for (std::string name; bytes.good && !(name = bytes.word()).empty(); names.insert(name)) {
-        bytes.word();  // its type
+        bytes.word();  // the attribute's type
         bytes.take(bytes.number(4));
     }
     for (int row = 0; bytes.good && row < image.height; row += rows_a_block) {

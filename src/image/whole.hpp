@@ -1,5 +1,5 @@
-// Whether an EXR that OpenImageIO has written is all there: where memory ends, it may leave rows or attributes out and
-// report nothing.
+// A check that OpenImageIO has written a complete EXR: if memory runs out, it may leave out rows or attributes without
+// an error.
 #pragma once
 
 #include <span>
@@ -8,8 +8,8 @@
 
 namespace csgrt {
 
-/// `exr`: the file, compressed as zip. True if the header has the picture's matrices and csgrt's own attributes, and
-/// every row stands where the file's table of offsets says. What stands in the rows is not decoded.
+/// Whether the header has the picture's matrices and csgrt's own attributes, and each block of rows is where the file's
+/// table of offsets says. `exr`: the file, compressed as zip. The rows are not decoded.
 bool is_whole(std::span<const unsigned char> exr, const Image& image);
 
 }  // namespace csgrt

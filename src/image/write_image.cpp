@@ -36,7 +36,7 @@ void write_image(const Image& image, const std::string& path, const std::string&
         NewFile::write_to(STDOUT_FILENO, text(encoded(format, "standard output")), "standard output");
         return;
     }
-    // The name of a device or a pipe has no extension that gives the format.
+    // The name of a device or a pipe may have no extension. Then `format` gives the format.
     std::string by_name = extension_of(path);
     if (by_name != "exr" && by_name != "png" && target_of(path).direct) by_name = format;
     const std::vector<unsigned char> bytes = encoded(by_name, path);

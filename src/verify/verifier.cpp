@@ -13,16 +13,16 @@ namespace csgrt {
 namespace {
 
 constexpr double roundings = 64, unit_roundoff = 0x1p-53;
-constexpr double most_leap = 4;  ///< of shift / cos; where a ray grazes a surface, a decided boundary may move by twice
-                                 ///< that
+constexpr double most_leap = 4;  ///< times shift / cos: boundaries that move farther are not measured; on a grazed
+                                 ///< surface a decided boundary may move by 2 shift / cos
 constexpr int corners = 8;
-constexpr int few_neighbours = 8, all_neighbours = 64;  ///< on a circle around a tie
+constexpr int few_neighbours = 8, all_neighbours = 64;  ///< numbers of rays on a circle around a tie
 
 Vec3 operator+(Vec3 a, Vec3 b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
 Vec3 operator-(Vec3 a, Vec3 b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
 Vec3 operator*(double s, Vec3 v) { return {s * v.x, s * v.y, s * v.z}; }
 
-/// The model's box; one of two millimetres about the origin if nothing in the model is bounded.
+/// The model's box. If nothing in the model is bounded: a box of two millimetres around the origin.
 Box box_of(const Renderer& renderer) {
     const Box box = renderer.model().bounds();
     return box.low.x <= box.high.x ? box : Box{{-1, -1, -1}, {1, 1, 1}};
@@ -34,7 +34,8 @@ Settings on_reference(Settings settings) {
     return settings;
 }
 
-/// Settings with 113 bits, `tolerance`, and the default for everything else: the answers that others are compared with.
+/// Settings of the exact answers, which the others are compared with: 113 bits, `tolerance`, and all defaults
+/// otherwise.
 Settings exact(const Settings& settings, double tolerance) {
     Settings result = on_reference(settings);
     result.precision = Precision::quad;
@@ -44,13 +45,12 @@ Settings exact(const Settings& settings, double tolerance) {
     return result;
 }
 
-/// The 113-bit answer of one ray, and its changes when the ray moved.
+/// The 113-bit answer for one ray, and its changes when the ray is moved.
 struct Judged {
     RayPartitions answer;
     bool tie = false, all_as_they_are = true;
-    std::vector<std::array<double, 2>> moved;  ///< the distances that each partition's boundaries moved, in units of
-                                               ///< the direction
-    RegionDifference difference;               ///< of a tie: the change
+    std::vector<std::array<double, 2>> moved;  ///< for each partition's boundaries: the largest change of t
+    RegionDifference difference;               ///< for a tie: the change that made it one
 };
 
 // The distance of two numbers: 0 if both are equal, infinite ones too.
@@ -81,7 +81,8 @@ std::vector<Ray> neighbours_of(const Ray& ray, double distance, int count) {
 struct Verifier::Impl {
     Settings settings;
     std::function<bool(double)> progress;  ///< of the current call
-    double done = 0, part = 0;             ///< of the current call: before the current shot, and the shot itself
+    double done = 0, part = 0;  ///< of the current call: the fraction done before the current list of rays, and the
+                                ///< list's own fraction
     std::optional<Renderer> device, reference, judge;
     std::vector<Renderer> other_tolerances;
     Box box;
@@ -109,7 +110,7 @@ struct Verifier::Impl {
     void judge_ties(const std::vector<Ray>& rays, std::vector<Judged>& judged, const std::vector<RayPartitions>& found);
 };
 
-/// Compares with the answer of a moved ray, or of another tolerance.
+/// Compares a ray's answer with the answer of the moved ray, or with another tolerance, and notes a tie or the changes.
 void Verifier::Impl::compare(Judged& judged, const RayPartitions& other, const NumberedRay& ray) {
     if (judged.tie) return;
     const std::vector<Partition>&a = judged.answer.partitions, &b = other.partitions;
@@ -137,9 +138,10 @@ void Verifier::Impl::add_tie(const NumberedRay& ray, RegionDifference difference
     ++kind->rays;
 }
 
-/// Decides ties, too, where all rays around meet the same. A ray that runs in a face may be in the solid or not; but if
-/// the solid lies on both sides of the face, the ray is within. The moves are finer than the corners', so that one of
-/// them is within any edge that the ray may touch.
+/// Decides ties by rays around them. Where all these neighbours are in the same region, an answer for the tie that
+/// differs is wrong. For example, a ray in a face between two parts of one solid is inside the solid. The neighbours
+/// have more directions than the corners have, so that a neighbour is inside the solid at any edge that the ray
+/// touches.
 void Verifier::Impl::judge_ties(const std::vector<Ray>& rays, std::vector<Judged>& judged,
                                 const std::vector<RayPartitions>& found) {
     std::vector<std::size_t> suspects;
@@ -166,7 +168,7 @@ void Verifier::Impl::judge_ties(const std::vector<Ray>& rays, std::vector<Judged
     for (const std::size_t i : suspects) judged[i].tie = false;
 }
 
-/// Measures the distances of a decided ray whose regions are right.
+/// Measures the errors of the boundaries of a decided ray whose regions are right.
 void Verifier::Impl::measure(const std::vector<Partition>& found, const Judged& judged, const NumberedRay& ray) {
     const std::vector<Partition>& exact = judged.answer.partitions;
     const Blur blur = blur_of(ray.ray);

@@ -47,7 +47,7 @@ Scene load(const std::string& path, const LoadOptions& options) try {
     check_interrupt();
     return scene;
 } catch (const Error&) {
-    check_interrupt();  // a signal may be the reason
+    check_interrupt();  // a signal may have caused the failure
     throw;
 }
 

@@ -18,7 +18,7 @@ namespace csgrt::cli {
 
 class Progress;
 
-/// A scene file, objects of it (none: its top objects), and how to compute.
+/// A scene file, some of its objects (none: its top objects), and settings.
 struct SceneArguments {
     std::string scene;  ///< file or "-"
     std::vector<std::string> objects;
@@ -28,10 +28,10 @@ struct SceneArguments {
 
 struct RenderArguments : SceneArguments {
     std::vector<std::string> outputs;  ///< "-" is standard output
-    std::string format;                ///< of "-": "exr" or "png"; empty: not given
-    View picture;                      ///< of its camera what `given` has; the rest is the scene's
-    std::set<std::string> given;       ///< members of the camera
-    std::string view;                  ///< file of a saved view; empty: none
+    std::string format;                ///< of a picture on standard output: "exr" or "png"; empty: not given
+    View picture;                      ///< camera members that `given` lacks are the scene's
+    std::set<std::string> given;       ///< names of the camera's members that options set
+    std::string view;                  ///< file of a saved view; empty: no such file
     std::vector<Look> looks;
     std::string stats;  ///< file, "-" or empty
     int repeat = 1;
@@ -39,24 +39,24 @@ struct RenderArguments : SceneArguments {
 
 struct ViewArguments : SceneArguments {
     std::string address = "127.0.0.1";
-    int port = 0;  ///< 0: any that is free
+    int port = 0;  ///< 0: any free port
     bool open = false;
 };
 
-/// How partitions are written.
+/// A format of partitions in a file.
 enum class RowFormat { text, csv, binary, npy };
 
 struct ShootArguments : SceneArguments {
     std::string rays;                          ///< file or "-"; empty: the grid
-    std::optional<std::pair<Axis, int>> grid;  ///< along an axis, so many rays each way
-    std::optional<double> near, far;           ///< lengths of a ray's direction
+    std::optional<std::pair<Axis, int>> grid;  ///< an axis, and the number of rays along each side of the grid
+    std::optional<double> near, far;           ///< the range of t, in lengths of a ray's direction
     RowFormat format = RowFormat::text;
     std::string output = "-";  ///< file or "-"
 };
 
 struct SampleArguments : SceneArguments {
     std::string points;          ///< file or "-"; empty: the plane
-    std::optional<Plane> plane;  ///< absent: the points
+    std::optional<Plane> plane;  ///< absent: the file of points is used
     int width = 1024, height = 1024;
     std::string output = "-";  ///< file or "-"
 };
@@ -70,7 +70,7 @@ struct VerifyArguments : SceneArguments {
 
 struct CompareArguments {
     std::string first, second;
-    std::optional<double> tolerance;  ///< absent: bit by bit
+    std::optional<double> tolerance;  ///< absent: files are compared bit by bit
 };
 
 struct DevicesArguments {};
@@ -93,7 +93,7 @@ struct TextArguments {
 using Command = std::variant<RenderArguments, ViewArguments, ShootArguments, SampleArguments, VerifyArguments,
                              CompareArguments, DevicesArguments, InfoArguments, ConvertArguments, TextArguments>;
 
-// Each returns Status::ok, or Status::differs if it compares or judges. Every other failure is thrown as an Error.
+// Each returns Status::ok; `compare` and `verify` may also return Status::differs. Every other failure is an Error.
 Status run(const RenderArguments& arguments);
 Status run(const ViewArguments& arguments);
 Status run(const ShootArguments& arguments);
@@ -108,12 +108,12 @@ Status run(const TextArguments& arguments);
 /// Throws Error (usage) about an option or an argument.
 [[noreturn]] void refuse(const char* option, std::string message, std::string suggestion);
 
-/// Settings whose progress function updates `progress` and stops the work after an interrupt. `progress` must outlive
-/// the use of the result.
+/// Settings whose progress function updates `progress`, and stops the work after an interrupt. `progress` must outlive
+/// the settings' use.
 Settings with_progress(const Settings& settings, Progress& progress);
 
-/// Prints warnings on standard error, one a line; of more than FindingList::most the first and the number of the
-/// others. `pictures`: also warnings about the appearance of pictures.
+/// Prints warnings on standard error, one a line. Of more than FindingList::most warnings it prints the first ones and
+/// the number of the others. `pictures`: also warnings about the appearance of pictures.
 void report(std::vector<Warning> warnings, bool pictures = true);
 
 /// Loads a scene. Throws Error (interrupted) after an interrupt.

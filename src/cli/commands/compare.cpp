@@ -1,4 +1,4 @@
-// csgrt compare: compares two pictures or two files of partitions. Their first bytes give their kind.
+// csgrt compare: compares two pictures or two files of partitions. The first bytes of a file tell its kind.
 #include "compare.hpp"
 
 #include <cerrno>
@@ -16,8 +16,7 @@ enum class Kind { picture, text };
 Kind kind_of(const std::string& path) {
     std::error_code ignored;
     auto type = std::filesystem::status(path, ignored).type();
-    if (type == std::filesystem::file_type::fifo)
-        return Kind::text;  // bytes that are read from a pipe cannot be read again
+    if (type == std::filesystem::file_type::fifo) return Kind::text;  // a pipe's first bytes could not be read again
     constexpr std::string_view exr = "\x76\x2f\x31\x01", gzip = "\x1f\x8b", png = "\x89PNG";
     std::FILE* file = std::fopen(path.c_str(), "rb");
     char bytes[4] = {};

@@ -18,7 +18,7 @@ namespace {
 
 struct ChannelDifference {
     std::size_t pixels = 0;    ///< number of different pixels
-    double largest = -1;       ///< infinite if one of the two is not a finite number; -1: no pixel differs
+    double largest = -1;       ///< infinite if a differing value is not a finite number; -1: no pixel differs
     std::size_t position = 0;  ///< of the largest difference
 };
 

@@ -28,8 +28,7 @@ struct Tally {
     }
 };
 
-/// The distance of two numbers: 0 if they are the same bits; more than 0 otherwise, even if only the sign of a zero
-/// differs.
+/// The distance of two numbers. 0 only if their bits are the same: zeros of different signs have a distance above 0.
 double apart(double a, double b) {
     if (std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b)) return 0;
     double difference = std::abs(a - b);

@@ -17,7 +17,8 @@ Status run(const ConvertArguments& arguments) {
     std::vector<Warning> warnings = scene.warnings;
     if (scene.lenient)
         validate(scene, {}, false,
-                 &warnings);  // adds warnings about parts that are left out; the reader has reported its own
+                 &warnings);  // writing adds warnings about parts that are left out; the reader has reported its own
+                              // warnings
     report(warnings);
     save_scene(scene, arguments.output);
     return Status::ok;

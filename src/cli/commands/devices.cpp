@@ -29,10 +29,10 @@ std::string gibibytes(std::uint64_t bytes) {
     return text;
 }
 
-/// Can drivers be loaded? A driver may end the process that loads it, so a child loads it first.
+/// Can drivers be loaded? A driver may end the process that loads it, so a child process loads the drivers first.
 bool can_load_drivers() {
-#ifdef CSGRT_HAS_OWN_HANDLERS  // a sanitizer, whose child may wait for ever for a lock of a thread that does not exist
-                               // in it
+#ifdef CSGRT_HAS_OWN_HANDLERS  // a sanitizer: its child process may wait for ever for a lock that a thread of the
+                               // parent holds
     return true;
 #endif
     const pid_t child = fork();
@@ -43,7 +43,7 @@ bool can_load_drivers() {
         for (const int signal : {SIGABRT, SIGBUS, SIGSEGV}) std::signal(signal, SIG_DFL);
         try {
             static_cast<void>(devices());
-        } catch (const std::exception&) {  // the parent has the same fault, and reports it
+        } catch (const std::exception&) {  // the parent will have the same fault, and reports it
         }
         _exit(0);
     }
@@ -59,7 +59,7 @@ bool can_load_drivers() {
 Status run(const DevicesArguments&) {
     std::vector<std::string> notes;
     if (!can_load_drivers()) {
-        setenv("OCL_ICD_VENDORS", "/none/", 1);  // for the OpenCL loader: there are no drivers
+        setenv("OCL_ICD_VENDORS", "/none/", 1);  // tells the OpenCL loader that there are no drivers
         setenv("OCL_ICD_FILENAMES", "", 1);
         notes.push_back(
             "OpenCL cannot be used: one of its drivers ends the process that loads it. Those are in the folder "

@@ -1,4 +1,4 @@
-// csgrt info: the contents of a scene, and of the compiled scene.
+// csgrt info: prints the contents of a scene, before and after compilation.
 #include <cmath>
 #include <cstdio>
 #include <map>
@@ -53,8 +53,8 @@ std::string contents_text(const Scene& scene, const InfoArguments& arguments) {
 }
 
 struct Compiled {
-    std::optional<Model> model;  ///< none: nothing is left to render
-    std::string fault;           ///< why
+    std::optional<Model> model;  ///< absent: nothing is left to render
+    std::string fault;           ///< the reason why there is no model
     double milliseconds = 0;
     std::vector<Warning> warnings;
 };
@@ -67,7 +67,8 @@ Compiled compile_what_is_left(const Scene& scene, const InfoArguments& arguments
     check_interrupt();
     return {model, "", milliseconds_since(begin), model.warnings()};
 } catch (const Error& error) {
-    // If nothing is left to render, the parts that were left out are listed. An object that does not exist is an error.
+    // If nothing is left to render, csgrt info lists the parts that were left out. An object that does not exist is an
+    // error.
     std::vector<Warning> warnings = scene.warnings;
     if (error.status() != Status::scene || !scene.lenient ||
         !validate(scene, arguments.objects, false, &warnings, arguments.settings.max_instances).empty())
@@ -147,7 +148,7 @@ std::string model_json(const Scene& scene, const Compiled& compiled) {
     constexpr const char* between = ",\n    ";
     std::string regions, warnings;
     std::size_t solids = 0;
-    Box bounds{{1, 1, 1}, {0, 0, 0}};  // none
+    Box bounds{{1, 1, 1}, {0, 0, 0}};  // an empty box
     if (compiled.model) {
         for (const SolidInfo& solid : compiled.model->solids()) solids += solid.piece == 0;
         bounds = compiled.model->bounds();

@@ -1,4 +1,4 @@
-// csgrt SCENE: one or more frames, written as pictures and figures.
+// csgrt SCENE: renders one or more frames, and writes pictures and statistics.
 #include <algorithm>
 #include <filesystem>
 #include <utility>
@@ -26,7 +26,7 @@ namespace {
 #ifdef CSGRT_HAVE_IMAGE
 bool names_format(const std::string& path) { return extension_of(path) == ".exr" || extension_of(path) == ".png"; }
 
-/// Standard output, a device or a pipe: the name does not give the format.
+/// Whether the path is standard output, a device or a pipe, whose name does not tell the format.
 bool has_no_format(const std::string& path) { return path == "-" || (!names_format(path) && target_of(path).direct); }
 #endif
 
@@ -83,7 +83,8 @@ void check(const RenderArguments& arguments) {
     check_outputs(outputs, {{"SCENE", arguments.scene}});
 }
 
-/// Refuses a look of no region: the scene itself may have such looks, since regions come and go there.
+/// Refuses an option's look that fits no region. The scene's own looks may fit none, because its regions change over
+/// time.
 void check_looks(const std::vector<Look>& looks, const std::vector<RegionInfo>& regions) {
     for (const Look& look : looks) {
         const bool is_there = std::ranges::any_of(regions, [&](const RegionInfo& region) {
@@ -102,7 +103,7 @@ void check_looks(const std::vector<Look>& looks, const std::vector<RegionInfo>& 
     }
 }
 
-/// Whether the outputs are pictures with colours only, without figures: then first hits are enough.
+/// Whether the outputs are pictures that hold only colours, without statistics: then first hits are enough.
 bool only_colors(const RenderArguments& arguments) {
 #ifdef CSGRT_HAVE_IMAGE
     return !arguments.outputs.empty() && arguments.stats.empty() &&
@@ -115,7 +116,7 @@ bool only_colors(const RenderArguments& arguments) {
 #endif
 }
 
-/// Returns the statistics; `image` is the last frame.
+/// Renders the frames and returns their statistics. `image` becomes the last frame.
 Statistics render_frames(Scene scene, const RenderArguments& arguments, const View& view, Image& image) {
     scene.looks.insert(scene.looks.end(), arguments.looks.begin(), arguments.looks.end());
     Framebuffer framebuffer;

@@ -45,7 +45,7 @@ void check(const SampleArguments& arguments) {
     check_outputs({{"--output", arguments.output}}, inputs);
 }
 
-/// Appends ",ID,PATH" and a line break; no path if there is no region, or there are several.
+/// Appends ",ID,PATH" and a line break; PATH is empty if there is no region, or several.
 void append_region(std::string& text, std::int32_t id, const Model& model) {
     text += ',' + std::to_string(id) + ',';
     if (id >= 0) append_field(text, model.regions()[static_cast<std::size_t>(id)].path);

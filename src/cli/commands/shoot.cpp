@@ -21,7 +21,7 @@ namespace csgrt::cli {
 
 namespace {
 
-constexpr std::size_t most_rays = 65'536;        ///< in a chunk; enough to fill a device
+constexpr std::size_t most_rays = 65'536;        ///< in a chunk; enough to keep a device busy
 constexpr std::size_t most_text = 64'000'000;    ///< bytes of a chunk's answers, approximately
 constexpr std::size_t most_written = 1'000'000;  ///< bytes of a table at once, approximately
 constexpr std::uint64_t most_of_grid = 262'144;  ///< rays of a grid at once
@@ -34,7 +34,7 @@ public:
     explicit RaySource(const ShootArguments& arguments) {
         if (!arguments.grid) reader_.emplace(arguments.rays);
     }
-    /// Makes the grid, if the rays are one.
+    /// Makes the grid over the box, if the arguments ask for a grid.
     void cover(const Box& box, const ShootArguments& arguments) {
         if (!arguments.grid) return;
         if (!(box.low.x <= box.high.x))
@@ -67,7 +67,7 @@ private:
     std::uint64_t next_ = 0;
 };
 
-/// The data that the parts of the work share.
+/// The state of one `csgrt shoot`, which its functions share.
 struct Shooting {
     const ShootArguments& arguments;
     RaySource& source;
@@ -106,14 +106,14 @@ std::string header(const ShootArguments& arguments, const Renderer& renderer, st
     return text + "\n# box " + bounds_text(model, false, number) + "\n";
 }
 
-/// Calls shoot(rays, first) for chunks of rays; `first` is the number of the first one. It returns the size of the
-/// answer in bytes, on which the size of the next chunk depends.
+/// Calls shoot(rays, first) for chunks of rays; `first` is the index of the chunk's first ray. shoot() returns the
+/// answer's size in bytes, from which the next chunk's size follows.
 template <class Shoot>
 void for_chunks_of_rays(Shooting& work, const Shoot& shoot) {
     std::vector<Ray> rays;
     std::uint64_t done = 0;
     const auto total = static_cast<double>(work.source.count());
-    std::size_t chunk = 1;  // the answer to one ray has megabytes where thousands of regions overlap
+    std::size_t chunk = 1;  // where thousands of regions overlap, one ray's answer has megabytes
     while (work.source.next(rays, chunk)) {
         work.progress.range(static_cast<double>(done) / total, static_cast<double>(done + rays.size()) / total);
         const std::size_t bytes = shoot(rays, done);
@@ -143,7 +143,8 @@ void write_text(Shooting& work) {
     });
 }
 
-/// Calls take(rows, first, ray_of) for the answers to parts of the rays; ray_of(i) is the i-th ray of a part.
+/// Calls take(rows, first, ray_of) with the answers for one chunk of rays after another. ray_of(i) returns the chunk's
+/// i-th ray.
 template <class Take>
 void for_rows(Shooting& work, Fields fields, const Take& take) {
     const RayRanges ranges{.all = work.range, .each = {}};
@@ -167,7 +168,7 @@ void for_rows(Shooting& work, Fields fields, const Take& take) {
 void write_table(Shooting& work) {
     const RowTable table(work.renderer.model(), work.arguments.format);
     std::uint64_t count = 0, written = 0;
-    if (work.arguments.format == RowFormat::npy) {  // the file begins with the number of rows; a pipe does not go back
+    if (work.arguments.format == RowFormat::npy) {  // the header holds the number of rows, and a pipe cannot be rewound
         work.progress.stage("counting");
         for_rows(work, {},
                  [&](const Partitions& rows, std::uint64_t, const auto&) { count += rows.region_ids.size(); });

@@ -1,4 +1,4 @@
-// csgrt verify: judges a sample of rays by 113-bit answers, some thousand at a time.
+// csgrt verify: compares a sample of rays with 113-bit answers, some thousand rays at a time.
 #include <algorithm>
 
 #include "commands.hpp"

@@ -28,8 +28,8 @@ namespace {
 #ifdef CSGRT_HAVE_VIEW
 void warn(const char* what) { std::fprintf(stderr, "csgrt: warning: %s\n", what); }
 
-/// Opens the desktop's browser by a file with the address: every user can read the arguments of a process, and the
-/// address has a secret.
+/// Opens the desktop's browser with a file that redirects to the address. The address holds a secret, and every user
+/// can read a process's arguments.
 class Browser {
 public:
     explicit Browser(const std::string& address) {
@@ -42,7 +42,7 @@ public:
             warn("there is no xdg-open to open a browser with: open the address yourself");
         }
     }
-    /// Reaps the program that opens the browser. Some of these run as long as the browser does.
+    /// Reaps the program that opens the browser. Such a program may run as long as the browser does.
     void reap() {
         int status = 0;
         if (process_ == 0 || waitpid(process_, &status, WNOHANG) == 0) return;
@@ -55,7 +55,7 @@ private:
     pid_t process_ = 0;
 };
 
-/// Whether no process is left that could read this process's output.
+/// Whether this process's output is a pipe whose readers have all ended.
 bool is_output_closed() {
     pollfd output{STDOUT_FILENO, 0, 0};
     return poll(&output, 1, 0) > 0 && (output.revents & POLLERR) != 0;
@@ -108,7 +108,7 @@ Status run(const ViewArguments& arguments) {
     }
     viewer.run([&] {
         if (browser) browser->reap();
-        // A program that gave its scene through a pipe has ended, without closing its page.
+        // The program that gave its scene through a pipe may have ended without closing its page.
         return !interrupted() && !(is_input && is_output_closed());
     });
     check_interrupt();

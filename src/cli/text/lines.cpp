@@ -34,7 +34,7 @@ LineReader::LineReader(const std::string& path, Passes passes)
 }
 
 void LineReader::fail(const std::string& what, int code) const {
-    check_interrupt();  // a signal may be the reason
+    check_interrupt();  // a signal may have caused the failure
     throw Error(Status::file, name_ + ": " + what + ": " + (code == EBADF ? "it is closed" : std::strerror(code)));
 }
 
@@ -43,7 +43,7 @@ void LineReader::refuse_endless(int line) const {
 }
 
 std::size_t LineReader::read(char* into, std::size_t size) {
-    // The wait is in short turns, because a signal that comes just before a wait does not end it.
+    // The wait is a series of short waits, because a signal that comes just before a wait does not end the wait.
     const int file = fileno(file_.get());
     pollfd waiting{file, POLLIN, 0};
     for (int ready = 0; ready == 0 || (ready < 0 && errno == EINTR); ready = poll(&waiting, 1, 200)) check_interrupt();

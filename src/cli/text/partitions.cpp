@@ -82,7 +82,7 @@ void PartitionReader::fail(int column, const std::string& message, const char* f
     throw Error(Status::file, {lines_.finding(column, message, form)});
 }
 
-/// Reads the next line that is not a comment, of at least `least` words.
+/// Reads the next line that is not a comment, and has at least `least` words.
 void PartitionReader::next_words(std::size_t least, const char* form) {
     std::string_view line;
     do {

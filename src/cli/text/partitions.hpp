@@ -24,12 +24,12 @@ class PartitionWriter {
 public:
     explicit PartitionWriter(const Model& model);
 
-    /// Appends the lines of one ray to `out`. If a range cuts a partition, the solid there is none of the model's: it
-    /// and its type are -.
+    /// Appends the lines of one ray to `out`. If a range cuts a partition, no solid is at the cut: the solid and its
+    /// type are written as -.
     void append(std::string& out, std::uint64_t ray, const RayPartitions& partitions) const;
 
 private:
-    std::vector<std::string> regions_, solids_, types_;  ///< the last entry is for no solid
+    std::vector<std::string> regions_, solids_, types_;  ///< the last entry stands for no solid
 };
 
 /// Appends a number with 17 significant digits, as printf's %.17g does in the C locale.
@@ -37,7 +37,7 @@ void append_number(std::string& out, double value);
 /// Appends a name, its blanks escaped.
 void append_name(std::string& out, std::string_view name);
 
-/// One ray of a file.
+/// A ray's answer, as it was read from a file.
 struct TextRay {
     struct Partition {
         std::string region;
@@ -56,7 +56,7 @@ struct TextRay {
 
 class PartitionReader {
 public:
-    /// Throws Error (file), as next() does if the file has another form.
+    /// Opens the file. Throws Error (file); so does next() if the file has another form.
     explicit PartitionReader(const std::string& path) : lines_(path, LineReader::Passes::one) {}
 
     /// Replaces `ray` by the next ray; false at the end of the file.

@@ -42,7 +42,8 @@ bool ItemReader<Item>::next(std::vector<Item>& items, std::size_t limit) {
     return !items.empty();
 }
 
-/// False for a line without an item: a blank line, a comment, or a wrong line, which becomes a finding.
+/// Reads a line. False: it holds no item, because it is blank or a comment, or because it is wrong, which becomes a
+/// finding.
 template <class Item>
 bool ItemReader<Item>::parse(std::string_view line, Item& item) {
     split(line.substr(0, line.find('#')), words_);

@@ -1,5 +1,5 @@
-// Rays and points from a text file, one a line: ox oy oz dx dy dz, or x y z. # begins a comment, blank lines do not
-// count.
+// Rays and points from a text file. A line holds one ray, ox oy oz dx dy dz, or one point, x y z. # begins a comment,
+// and blank lines are ignored.
 #pragma once
 
 #include <cstdint>
@@ -17,13 +17,13 @@ namespace csgrt::cli {
 template <class Item>
 class ItemReader {
 public:
-    /// Reads all items once, to count and check them. "-" is standard input.
-    /// Throws Error (file) if it cannot be read, or with the first wrong lines and the number of the others.
+    /// Reads all items once, to count and check them. "-" is standard input. Throws Error (file) if the file cannot be
+    /// read, or with the first wrong lines and the number of the others.
     explicit ItemReader(const std::string& path);
 
     std::uint64_t count() const { return count_; }
 
-    /// Replaces `items` by the next ones, at most `limit`; false when there are none left.
+    /// Replaces `items` by at most `limit` next items. False: no items are left.
     bool next(std::vector<Item>& items, std::size_t limit);
     /// Goes back to the first item.
     void rewind() { lines_.rewind(); }

@@ -14,7 +14,7 @@ namespace csgrt::cli {
 
 namespace {
 
-/// A leaf of a tree, with the operators and brackets before and behind it: "- (" and ")".
+/// A leaf of a tree, with the text before it, such as "- (", and behind it, such as ")".
 struct Member {
     const TreeNode* leaf = nullptr;
     std::string before, behind;
@@ -33,7 +33,7 @@ int strength(Operator op) {
 /// are added where the order of evaluation differs.
 std::vector<Member> members_of(const Tree& tree) {
     struct Part {
-        std::size_t first;  ///< number of the first leaf
+        std::size_t first;  ///< index of the first leaf
         Operator op;
     };
     std::vector<Member> members;

@@ -1,4 +1,4 @@
-// Descriptions of a scene.
+// Texts that describe a scene.
 #pragma once
 
 #include <map>
@@ -16,8 +16,8 @@ namespace csgrt::cli {
 /// (none: its top objects), blanks in names escaped.
 std::string model_text(const SceneArguments& arguments);
 
-/// The box of the bounded regions, six numbers by `number`, with "to" and "mm" between and after them if `in_words`;
-/// "unbounded" or "empty" if there is none.
+/// The box of the bounded regions: six numbers, which `number` converts to text, or "unbounded" or "empty". `in_words`
+/// adds "to" and "mm".
 std::string bounds_text(const Model& model, bool in_words, std::string (*number)(double));
 
 /// "3 (arb8 2, tor 1)", the most frequent first.

@@ -43,7 +43,7 @@ std::string to_json(const Statistics& s) {
     form::for_members(form::of<Statistics>, [&](const auto& member) {
         const auto& value = form::member_of(member, s);
         const std::string_view key = member.key.json;
-        if (key == "height") return;  // beside the width
+        if (key == "height") return;  // printed with the width
         const std::size_t point = std::min(key.find('.'), key.size());
         const std::string of(key, 0, point == key.size() ? 0 : point);
         if (!group.empty() && of != group) out += "}";

@@ -1,4 +1,4 @@
-// Statistics for --stats.
+// Texts of statistics for the option --stats.
 #pragma once
 
 #include <string>
@@ -15,8 +15,8 @@ std::string json_text(std::string_view text);
 /// One JSON object, with a line break after it.
 std::string to_json(const Statistics& statistics);
 
-/// The last frame's counts with the median of every time; the first of several frames, which warms up, is not counted.
-/// `frames` must not be empty.
+/// The last frame's counts, and the median of each time over the frames. Of several frames the first, which warms up,
+/// is left out. `frames` must not be empty.
 Statistics median_of(const std::vector<Statistics>& frames);
 
 }  // namespace csgrt::cli

@@ -80,7 +80,7 @@ void RowTable::append_csv(std::string& out, std::uint64_t number, const Ray& ray
     const double unit_length = length(ray.direction), t_in = rows.t_in[row], t_out = rows.t_out[row];
     const Vec3 along = unit(ray.direction);
     const auto field = [&out](double value) { append_shortest(out += ',', value); };
-    const auto point = [&](double t) {  // x, y, z and nirt's d, whose axis points against the ray
+    const auto point = [&](double t) {  // x, y, z and nirt's d, a coordinate that falls along the ray
         const auto coordinate = [t](double o, double d) { return d == 0 ? o : o + t * d; };
         field(coordinate(ray.origin.x, ray.direction.x));
         field(coordinate(ray.origin.y, ray.direction.y));

@@ -1,4 +1,4 @@
-// Tables for other programs: CSV, NumPy's arrays, and the rows of rays in either form.
+// Tables for other programs: partitions as CSV or as NumPy's arrays.
 #pragma once
 
 #include <cstdint>
@@ -13,11 +13,11 @@
 
 namespace csgrt::cli {
 
-/// The header of an array in NumPy's format 1.0. `type`: Python's text of its dtype. Its size does not depend on the
-/// numbers in `shape`.
+/// The header of an array in NumPy's format 1.0. `type`: Python's text of its dtype. The header's size does not depend
+/// on the numbers in `shape`.
 std::string npy_header(std::string_view type, std::span<const std::uint64_t> shape);
 
-/// Appends numbers as they lie in memory, in the machine's order of bytes: little-endian.
+/// Appends numbers as they lie in memory, which is little-endian.
 template <class T>
 void append_bytes(std::string& out, std::span<const T> numbers) {
     out.append(reinterpret_cast<const char*>(numbers.data()), numbers.size_bytes());
@@ -29,12 +29,12 @@ void append_field(std::string& out, std::string_view text);
 /// Writes the rows of rays: CSV with the columns of BRL-CAD's nirt, or packed records.
 class RowTable {
 public:
-    /// Makes a table. The format is not text.
+    /// Makes a table in any format but text.
     RowTable(const Model& model, RowFormat format);
 
-    /// The header before the rows, if there are `rows` of them; only npy needs the number.
+    /// The header before the rows. `rows`: the number of rows, which only npy's header has.
     std::string header(std::uint64_t rows) const;
-    /// Appends the rows of the i-th ray of an answer, whose number among all rays is `number`.
+    /// Appends the rows of an answer's i-th ray. `number`: the ray's index among all rays.
     void append(std::string& out, std::uint64_t number, const Ray& ray, const Partitions& rows, std::size_t i) const;
 
 private:
@@ -42,7 +42,7 @@ private:
                     std::size_t row) const;
 
     RowFormat format_;
-    std::vector<std::string> names_;  ///< of the regions: the three columns of CSV behind the ray's
+    std::vector<std::string> names_;  ///< for each region: three columns of CSV
     std::vector<int> los_;            ///< of the regions
 };
 

@@ -1,4 +1,4 @@
-// Verification's result, for people and for machines.
+// The result of a verification, as text and as JSON.
 #pragma once
 
 #include <string>
@@ -7,8 +7,8 @@
 
 namespace csgrt::cli {
 
-/// A table, then the first wrong rays and the most frequent ties. Rays have 17 digits and the form that `csgrt shoot`
-/// reads.
+/// A table, the first wrong rays and the most frequent ties. Rays are written with 17 digits, as `csgrt shoot` reads
+/// them.
 std::string to_text(const Verification& result, const Renderer& judged);
 
 /// One JSON object, with a line break after it. Infinite numbers are null.

@@ -113,7 +113,7 @@ void keep_for_ever(std::shared_ptr<const void> memory) {
 
 namespace {
 
-/// The host's wait, which has a time limit. A wait within the driver has none, but returns as soon as the event is
+/// A wait of the host with a time limit. A wait within the driver has no limit, but returns as soon as the event is
 /// done.
 class Wait {
 public:
@@ -141,7 +141,8 @@ void flush_queue_of(const Event& event) {
 void wait_for(const Event& event) {
     if (!event) return;
     if (event.cl().patience > 0 && !is_done(event)) {
-        constexpr double at_once_ms = 2;  // as drivers do, for commands that take no longer
+        constexpr double at_once_ms = 2;  // the host first polls without sleeping, as drivers do, because most commands
+                                          // take no longer
         flush_queue_of(event);
         for (const Wait wait(event.cl()); !is_done(event) && wait.ms() < at_once_ms;) {
             wait.check();
@@ -171,7 +172,7 @@ void wait_patiently(const Event& event) {
 
 void wait_for_one(std::span<const Event* const> events) {
 #ifdef __linux__
-    struct Slack {  // else a sleep takes 50 microseconds more
+    struct Slack {  // with the usual slack, a sleep takes 50 microseconds longer
         const int before = prctl(PR_GET_TIMERSLACK);
         Slack() { prctl(PR_SET_TIMERSLACK, 1000ul); }
         ~Slack() { prctl(PR_SET_TIMERSLACK, static_cast<unsigned long>(before)); }

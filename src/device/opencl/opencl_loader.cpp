@@ -27,7 +27,7 @@ constexpr const char* library_names[] = {"/System/Library/Frameworks/OpenCL.fram
 #else
 constexpr const char* library_names[] = {"libOpenCL.so.1", "libOpenCL.so"};
 #endif
-// RTLD_DEFAULT is not used: a library found there may be closed.
+// RTLD_DEFAULT is not used, because a library that it finds may be closed later.
 Library of_process() { return dlopen(nullptr, RTLD_NOW); }
 Library open_library(const char* name) { return dlopen(name, RTLD_NOW | RTLD_LOCAL); }
 void* symbol_of(Library library, const char* name) { return dlsym(library, name); }
@@ -35,15 +35,15 @@ std::string last_words() {
     const char* const words = dlerror();
     return words ? words : "";
 }
-/// The fault of opening a library. Empty if the library itself is missing; it is a fault if another library that it
-/// needs is.
+/// The reason why a library was not opened. Empty if only the library itself is missing. That another library, which it
+/// needs, is missing counts as a fault.
 std::string fault_of_opening(const char* name) {
     const std::string fault = last_words();
     return fault.starts_with(std::string(name) + ": cannot open shared object file") ? "" : fault;
 }
 #endif
 
-/// Fills the table. Returns the name of the first missing function; empty if none.
+/// Fills the table. Returns the name of the first missing function, or an empty text.
 std::string fill(Library library, OpenCl& functions) {
     std::string missing;
 #define CSGRT_FILL(name)                                                                         \
@@ -78,7 +78,8 @@ OpenClLoader open_loader() {
 }  // namespace
 
 const OpenClLoader& opencl_loader() {
-    static const auto& loader = *new const OpenClLoader(open_loader());  // never destroyed: threads may outlive exit()
+    static const auto& loader = *new const OpenClLoader(open_loader());  // never destroyed, because threads may still
+                                                                         // run during exit()
     return loader;
 }
 

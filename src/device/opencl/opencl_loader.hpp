@@ -7,17 +7,18 @@
 
 namespace csgrt {
 
-/// The functions of the loaded OpenCL, or the reason why there are none.
+/// The functions of OpenCL, or the reason why they could not be loaded.
 struct OpenClLoader {
     const OpenCl* functions = nullptr;  ///< null: there is no usable loader
-    std::string fault;                  ///< the reason; empty if none is installed
+    std::string fault;                  ///< the reason; empty if no loader is installed
 };
 
-/// Takes the OpenCL that the process has already (its own, or a tool's), else opens the library that drivers install.
-/// Once in a process; any thread.
+/// Uses the OpenCL library that the process has already loaded, or else opens the installed library. This happens once
+/// in a process. Any thread.
 const OpenClLoader& opencl_loader();
 
-/// The system's message about the last library that this thread could not load; empty: nothing since the last call.
+/// The system's message about the last library that this thread could not load. Empty if no load failed since the last
+/// call.
 std::string last_load_fault();
 
 }  // namespace csgrt

@@ -1,6 +1,6 @@
-// OpenCL table: the functions of OpenCL that csgrt calls. There are two tables: that of the OpenCL loader, opened when
-// it is first needed (opencl_loader.hpp), and that of the native device, whose kernels are in this library
-// (native/driver.hpp). Callers do not know which table they use.
+// OpenCL table: the functions of OpenCL that csgrt calls. There are two tables: the OpenCL loader's, which is loaded
+// when it is first needed (opencl_loader.hpp), and the native device's, whose kernels are in this library
+// (native/driver.hpp). Callers need not know which table they use.
 #pragma once
 
 #include <CL/cl.h>
@@ -22,7 +22,7 @@ namespace csgrt {
     F(WaitForEvents) F(ReleaseEvent) F(GetEventInfo) F(GetEventProfilingInfo)
 // clang-format on
 
-/// OpenCL's own names without their "cl". An object belongs to the table that made it.
+/// Function pointers, named as in OpenCL without "cl". An object may be used only with the table that made it.
 struct OpenCl {
 #define CSGRT_MEMBER(name) decltype(&::cl##name) name = nullptr;
     CSGRT_OPENCL_FUNCTIONS(CSGRT_MEMBER)

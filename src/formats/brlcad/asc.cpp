@@ -9,8 +9,8 @@ namespace csgrt {
 
 namespace {
 
-/// Is the text of v4? Every v4 record starts with a word of one letter; no Tcl command does. Comments and empty lines
-/// may stand before either.
+/// Is the text in the v4 form? Every v4 record starts with a word of one letter, and no Tcl command does. Both forms
+/// may begin with comments and empty lines.
 bool is_v4(std::string_view text) {
     while (true) {
         const std::size_t begin = text.find_first_not_of(" \t\r\n");

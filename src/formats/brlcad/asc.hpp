@@ -10,8 +10,8 @@ namespace csgrt {
 
 class TextSource;
 
-/// Reads an .asc file of either form. Throws Error: file if it cannot be read, scene with every finding if it is wrong,
-/// out_of_memory if the host cannot hold it. Solids that csgrt does not know become Unsupported. `lenient`: the
+/// Reads an .asc file, v4 or v5. Throws Error (file) if the file cannot be read, Error (scene) with every finding if it
+/// is wrong, and Error (out_of_memory). Solids of types that csgrt does not know become Unsupported. `lenient`: the
 /// opposite of LoadOptions::strict. `file_folders`: see LoadOptions.
 Scene read_brlcad_asc(const std::string& path, bool lenient = false, const std::vector<std::string>& file_folders = {});
 

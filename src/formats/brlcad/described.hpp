@@ -1,4 +1,4 @@
-// Described solids: their numbers stand one after another in BRL-CAD's databases, in the order of their descriptions.
+// Described solids: solids whose numbers BRL-CAD's databases hold in a row, in the order of the solid's description.
 #pragma once
 
 #include <functional>
@@ -9,7 +9,7 @@
 
 namespace csgrt {
 
-/// Reads a solid. `vector` and `number` read the next value; their argument is BRL-CAD's name of it.
+/// Reads a solid. `vector` and `number` read the next value; their argument is BRL-CAD's name of the value.
 template <class S, class Vector, class Number>
 S read_described(Vector vector, Number number) {
     S s;

@@ -1,11 +1,11 @@
-// Nmg: records of 26 kinds, kind after kind, each a row of 4-byte words, highest byte first; the first word is a magic
-// number of four letters. Records refer to each other by number, counted from 1 through all kinds. A list is a word in
-// its head and one in each element, the number of the next; -1 is the head again.
+// Nmg: records of 26 kinds, sorted by kind. A record is a row of 4-byte words, highest byte first; its first word is a
+// magic number of four letters. Records refer to each other by their numbers, counted from 1 through all kinds. A
+// list's head and each of its elements hold the number of the next element; -1 leads back to the head.
 //
 //     model -> regions -> shells -> faceuses -> loopuses -> edgeuses -> vertexuse -> vertex -> vertex_g, 3 doubles
 //
-// Each face has two uses, one a side; the use with orientation 1 looks out. Each loop has two uses as well: 1 is an
-// outline, 2 a hole.
+// Each face has two uses, one for each side; the use with orientation 1 is outside. Each loop has two uses, too:
+// orientation 1 is an outline, 2 a hole.
 #include "formats/brlcad/nmg.hpp"
 
 #include <bit>
@@ -28,7 +28,7 @@ constexpr Kind model{0, 16, "Nmod"}, region{1, 28, "Nreg"}, shell{3, 48, "Nshl"}
     loopuse{9, 40, "Nlu "}, edgeuse{12, 52, "Neu "}, vertexuse{16, 24, "Nvu "}, vertex{19, 16, "Nvrt"},
     vertex_g{20, 28, "Nv_g"};
 
-/// Bytes of a record by its kind; 0 where they vary or there is no such kind.
+/// Bytes of a record of each kind. 0: the size varies, or the kind does not exist.
 constexpr std::array<std::size_t, 26> sizes = {16, 28, 52, 48, 52, 40, 24, 44, 52, 40, 12, 52, 52,
                                                12, 60, 36, 24, 28, 28, 16, 28, 0,  0,  0,  0,  0};
 constexpr std::size_t curved_face = 8, curved_edge = 15;
@@ -63,7 +63,8 @@ public:
             return Unsupported{"nmg", "it has curved faces"};
         }
         if (counts_[model.number] != 1) fail(0, "the nmg is not one model");
-        // The elements of each list are counted: a list with more elements than records does not end.
+        // The elements of each list are counted, because a list with more elements than there are records would never
+        // end.
         std::uint32_t regions = 0, shells = 0, faces = 0;
         for (auto r = link(model, 1, model_regions); r != list_end; r = step(region, r, regions)) {
             for (auto s = link(region, r, region_shells); s != list_end; s = step(shell, s, shells)) {
@@ -80,7 +81,7 @@ private:
         throw Fault{offset_ + step_ * at, std::move(message), {}};
     }
 
-    /// The position of a record. It must be of the kind, by its number and its magic number.
+    /// The position of a record. A Fault if its number or its magic number belongs to another kind.
     std::size_t record(const Kind& kind, std::uint32_t number) const {
         const std::uint64_t first = first_[kind.number];
         if (number < first || number >= first + counts_[kind.number]) {
@@ -115,7 +116,7 @@ private:
         std::vector<Nmg::Loop> outlines, holes;
         for (auto l = link(faceuse, face, face_loopuses); l != list_end; l = step(loopuse, l, loops_)) {
             const std::uint32_t first = link(loopuse, l, loop_edgeuses);
-            if (is(vertexuse, first)) continue;  // a loop of one vertex, which bounds nothing
+            if (is(vertexuse, first)) continue;  // a loop of one vertex encloses nothing
             Nmg::Loop loop;
             for (auto e = first; e != list_end; e = step(edgeuse, e, edges_)) {
                 loop.push_back(read_vertex(link(edgeuse, e, edge_vertexuse)));
@@ -145,9 +146,10 @@ private:
     const NmgCounts& counts_;
     std::string_view bytes_;
     std::size_t offset_, step_;
-    std::array<std::uint64_t, 26> first_{}, begin_{};  ///< by kind: the first record's number, and its position
+    std::array<std::uint64_t, 26> first_{}, begin_{};  ///< for each kind: the number of the first record, and its
+                                                       ///< position
     std::uint32_t loops_ = 0, edges_ = 0;              ///< seen so far
-    std::unordered_map<std::uint32_t, std::uint32_t> vertices_;  ///< records to vertices of the solid
+    std::unordered_map<std::uint32_t, std::uint32_t> vertices_;  ///< the solid's vertex for each vertex record
     Nmg nmg_;
 };
 

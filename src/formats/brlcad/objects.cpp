@@ -76,15 +76,15 @@ std::vector<bool> BrlcadObjects::used_entries() const {
 
 namespace {
 
-/// Removes noise from the last rows of matrices: entries that are no perspective, but the rounding of a program in
-/// single precision.
+/// Removes noise from the last rows of matrices: small entries that stem from rounding to single precision, not from
+/// perspective.
 class NoiseRemover {
 public:
     void remove(Matrix& matrix, const std::string& object, const Place& place) {
         if (matrix[12] == 0 && matrix[13] == 0 && matrix[14] == 0) return;
         double most = 0;
         for (std::size_t i = 12; i < 15; ++i) most = std::max(most, std::abs(matrix[i] / matrix[15]));
-        if (!(most <= single_precision)) return;  // NaN, too: validation refuses its users
+        if (!(most <= single_precision)) return;  // also for NaN: validation refuses the matrix where it is used
         for (std::size_t i = 12; i < 15; ++i) matrix[i] = 0;
         if (warning_.count == 0) {
             warning_.object = object;
@@ -94,14 +94,14 @@ public:
         }
         ++warning_.count;
     }
-    /// Adds one warning for all matrices: a file with noise nearly always has it in every matrix.
+    /// Adds one warning for all matrices: in a file with noise, nearly every matrix has it.
     void tell(std::vector<Warning>& warnings) {
         if (warning_.count > 0) warnings.push_back(std::move(warning_));
     }
 
 private:
     static constexpr double single_precision =
-        1e-6;  // of the last row's largest entry: as much as BRL-CAD's importer accepts
+        1e-6;  // relative to the last row's last entry; BRL-CAD's importer accepts as much
 
     Warning warning_{
         {}, {}, "the last row of a matrix is not 0 0 0 w by the noise of single precision, which is divided out", 0};

@@ -1,5 +1,5 @@
-// Objects of a database while it is read. Their names are unique, and found quickly. Some objects are parts of solids
-// (sketches, cells of an ebm, vol or dsp): they are put into their solids when all objects are read.
+// Objects of a database while it is read, by their names, which are unique. Sketches and the cells of an ebm, vol or
+// dsp are parts of solids: they are put into their solids after all objects are read.
 #pragma once
 
 #include <cstddef>
@@ -22,14 +22,14 @@ inline Scene brlcad_scene(bool lenient) {
     return scene;
 }
 
-/// Numbers under a name (BRL-CAD's binunif), in the form of a binary database: highest byte first.
+/// A named array of numbers (BRL-CAD's binunif), as bytes, highest byte first.
 struct BrlcadNumbers {
-    static constexpr int bytes = 4, words = 5;  ///< types: unsigned, of 8 and of 16 bits
+    static constexpr int bytes = 4, words = 5;  ///< types of unsigned numbers: 8 and 16 bits
     int type = 0;
     std::string data;
 };
 
-/// An object that has no inside and is not a part of a solid: a grip, a joint, a note.
+/// An object without volume that is not a part of a solid: a grip, a joint, a note.
 struct BrlcadNothing {
     std::string type;
 };
@@ -41,26 +41,27 @@ struct BrlcadPoints {
         double radius;
     };
     std::vector<Ball> balls;
-    std::size_t without_scale = 0;  ///< number of points
+    std::size_t without_scale = 0;  ///< number of points without a scale
 };
 
-/// The object of a name, unless it is a combination.
+/// A named object other than a combination.
 struct BrlcadItem {
     std::variant<Shape, Sketch, BrlcadNumbers, BrlcadNothing, BrlcadPoints> content;
     bool cells_in_object = false;  ///< an ebm, vol or dsp: its `file` names an object, not a file
 };
 
-/// Whether objects of a type have no inside, so that they need not be read.
+/// Whether objects of a type have no volume, so that they need not be read.
 bool is_brlcad_nothing(std::string_view type);
 
-/// Collects the objects of a database, whatever its form. When all are read, take() completes solids from the objects
-/// and files that they name.
+/// Collects the objects of a database of any form. After all are read, take() completes solids with the objects and
+/// files that they name.
 class BrlcadObjects {
 public:
     explicit BrlcadObjects(Findings& findings) : findings_(findings) {}
 
-    /// Adds an object. A second object of a name is dropped, with a finding at `offset`, or with a warning in a lenient
-    /// scene. An extrude or revolve has only the name of its sketch yet; an ebm, vol or dsp no cells.
+    /// Adds an object. A second object with the same name is dropped, with a finding at `offset`, or in a lenient scene
+    /// with a warning. An extrude or revolve has only its sketch's name until take(), and an ebm, vol or dsp has no
+    /// cells.
     void add(Combination combination, std::size_t offset);
     void add(const std::string& name, BrlcadItem item, Place place, std::size_t offset);
 
@@ -68,15 +69,14 @@ public:
     void add_broken(const std::string& name, std::string type, Fault fault);
 
     bool contains(const std::string& name) const { return index_.count(name) != 0; }
-    /// The combination of a name, or nullptr. Valid until the next `add`.
+    /// The combination with this name, or nullptr. Valid until the next `add`.
     Combination* find_combination(const std::string& name);
 
-    /// Returns solids and combinations in the order in which they were added, and leaves none. Solids are completed
-    /// from the other objects and from files, whose names are relative to the folder of `model` and which lie below one
-    /// of `file_folders`. A solid whose parts are not available becomes Unsupported, with the reason. An object without
-    /// an inside is left out, or, if a combination uses it, is the empty set; in a lenient scene, Unsupported. Points
-    /// are the union of their balls: a region of their own outside all regions, as any solid is. Faults that a lenient
-    /// scene tolerates are added to `warnings`.
+    /// Takes all solids and combinations, in the order in which they were added. Solids are completed with other
+    /// objects and with files, whose names are relative to the folder of `model` and which must be below one of
+    /// `file_folders`. A solid whose parts are not available becomes Unsupported, with the reason. An object without
+    /// volume is left out; if a combination uses it, it becomes the empty set, or Unsupported in a lenient scene.
+    /// Points become the union of their balls. Faults that a lenient scene tolerates are added to `warnings`.
     std::vector<Object> take(const std::string& model, const std::vector<std::string>& file_folders,
                              std::vector<Warning>& warnings);
 

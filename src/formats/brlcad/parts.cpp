@@ -15,10 +15,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The longest path in a message; a person needs all of it.
+/// The longest path in a message; a user needs to see the whole path.
 constexpr std::size_t longest_path = 1000;
 
-/// The reason why a solid cannot be completed; thrown, but never out of this file.
+/// The reason why a solid cannot be completed, as an exception that never leaves this file.
 struct Lack {
     std::string reason;
 };
@@ -39,7 +39,7 @@ std::uint64_t bytes_of(const Sketch& sketch) {
     return bytes;
 }
 
-/// a x b, limited to more than any file holds.
+/// a x b, but at most a number that is larger than any file.
 std::uint64_t capped_product(std::uint64_t a, std::uint64_t b) {
     constexpr std::uint64_t cap = max_file_bytes + 1;
     return a != 0 && b > cap / a ? cap : a * b;
@@ -56,7 +56,7 @@ void assign(std::vector<std::uint16_t>& heights, const std::string& bytes) {
     }
 }
 
-/// The path without links and .., as far as it exists. Empty: it cannot be resolved.
+/// The path without links and .., as far as it exists. Empty if the path cannot be resolved.
 fs::path resolved(const fs::path& path) {
     std::error_code failed;
     const fs::path whole = fs::absolute(path, failed);
@@ -119,12 +119,12 @@ std::string BrlcadParts::take_cells(const Cells& cells, bool in_object) {
     return in_object ? read_object(cells.source, bytes, cells.size) : read_file(cells.source, bytes);
 }
 
-/// Only a file of exactly the right size is opened, so no device or pipe, and not more bytes are read than expected.
-/// The message about a file that may not be named does not depend on whether it exists.
+/// Reads a file. Only a regular file of exactly the right size is opened, so no device or pipe. The message about a
+/// file that the model may not name does not tell whether the file exists.
 std::string BrlcadParts::read_file(const std::string& name, std::uint64_t bytes) const {
     const std::string what =
         "its cells are in the file " + csgrt::quoted((folder_ / name).string(), longest_path) + ", which ";
-    // The .. go first: paths outside are not tested for existence on the way back in.
+    // Each .. is removed first, so that no folder outside is tested for existence.
     const fs::path path = resolved((base_ / name).lexically_normal());
     if (std::none_of(allowed_.begin(), allowed_.end(), [&](const fs::path& f) { return is_below(path, f); }))
         throw Lack{what + "the model may not name: allow its folder with --allow-files"};

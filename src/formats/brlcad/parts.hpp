@@ -1,4 +1,5 @@
-// Parts of solids that stand elsewhere: the sketch of an extrude or revolve, the cells of an ebm, vol or dsp.
+// Parts of solids that other objects or files hold: the sketch of an extrude or revolve, the cells of an ebm, vol or
+// dsp.
 #pragma once
 
 #include <cstdint>
@@ -20,12 +21,12 @@ public:
     /// and each gets a copy.
     static constexpr std::uint64_t most_bytes = max_file_bytes;
 
-    /// `find` returns the object of a name, or nullptr. Names of files are relative to `folder`; only files below one
+    /// `find` returns the object with a name, or nullptr. Names of files are relative to `folder`; only files below one
     /// of `allowed` are read.
     BrlcadParts(std::filesystem::path folder, const std::vector<std::string>& allowed,
                 std::function<const BrlcadItem*(const std::string&)> find);
 
-    /// Completes a solid if it has such parts. If it cannot be completed, it becomes Unsupported, with the reason.
+    /// Completes a solid if it has such parts. Makes it Unsupported, with the reason, if a part is not available.
     void complete(Shape& shape, bool cells_in_object);
 
 private:

@@ -21,8 +21,8 @@ std::size_t numbers_of(int type) {
            ((type & with_normal) != 0 ? 3 : 0);
 }
 
-/// Adds a point. The radius of its ball is its own scale, else the scale of all points; without a scale of more than 0
-/// it has no inside.
+/// Adds a point. Its own scale, or else the scale of all points, is the radius of its ball. A point without a scale
+/// above 0 is only counted.
 void add_point(BrlcadPoints& points, int type, double scale, std::span<const double> numbers) {
     const std::size_t scale_at = (type & with_color) != 0 ? 6 : 3;
     const double radius = (type & with_scale) != 0 ? numbers[scale_at] : scale;
@@ -36,7 +36,7 @@ void add_point(BrlcadPoints& points, int type, double scale, std::span<const dou
 }  // namespace
 
 BrlcadPoints read_v5_points(Parameters& p) {
-    if (p.has("count")) p.take("count");  // BRL-CAD counts the data
+    if (p.has("count")) p.take("count");  // ignored, as BRL-CAD does: the list `data` has its own length
     const int type = p.has("type") ? p.integer("type", 0, last_type) : 0;
     const double scale = p.has("scale") ? p.number("scale") : 0;
     BrlcadPoints points;

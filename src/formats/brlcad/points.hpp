@@ -1,4 +1,4 @@
-// Points (BRL-CAD's pnts), of which each may have a colour, a scale and a normal. A point with a scale is a ball.
+// Points (BRL-CAD's pnts). Each may have a colour, a scale and a normal. A point with a scale is a ball.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@ namespace csgrt {
 class ByteReader;
 class Parameters;
 
-/// Reads the keys count, type, scale and data, a list of lists of numbers. Throws Fault.
+/// Reads the keys count, type, scale, and data, which is a list of lists of numbers. Throws Fault.
 BrlcadPoints read_v5_points(Parameters& p);
 
 /// Reads scale: a double  type: 2 bytes  count: 4 bytes  doubles of each point: x y z, colour?, scale?, normal?. Throws

@@ -15,10 +15,10 @@ namespace csgrt {
 
 namespace {
 
-/// Exponents beyond this give the same highlight, a single point.
+/// The largest exponent of a highlight: beyond it the highlight is only a point.
 constexpr double max_shine = 10'000;
 
-/// The next token of a parameter list; blanks, braces and '=' separate.
+/// The next token of a parameter list. Blanks, braces, quotes and '=' separate tokens.
 std::string_view next_token(std::string_view& text) {
     constexpr std::string_view separators = " \t\r\n={}\"";
     const std::size_t begin = std::min(text.find_first_not_of(separators), text.size());
@@ -36,7 +36,7 @@ std::string_view trimmed(std::string_view text) {
     return text.substr(begin, end == std::string_view::npos ? 0 : end + 1 - begin);
 }
 
-/// The length of the braced group that `text` starts with; all of it if the brace is not closed.
+/// The length of the braced group that `text` starts with. If the brace is not closed, the length of `text`.
 std::size_t group_length(std::string_view text) {
     std::size_t depth = 0;
     for (std::size_t i = 0; i < text.size(); ++i) {
@@ -46,7 +46,7 @@ std::size_t group_length(std::string_view text) {
     return text.size();
 }
 
-/// The text without braces around all of it; nobody wraps a shader deeper than this.
+/// The text without pairs of braces around all of it, at most `deepest` pairs.
 std::string_view unwrapped(std::string_view text) {
     constexpr int deepest = 8;
     text = trimmed(text);
@@ -57,7 +57,7 @@ std::string_view unwrapped(std::string_view text) {
     return text;
 }
 
-/// The next shader of a stack: up to a ';' in the older notation, a braced group in the newer.
+/// The next shader of a stack. In the older notation a ';' ends it, in the newer one it is a braced group.
 std::string_view next_member(std::string_view& stack) {
     stack.remove_prefix(std::min(stack.find_first_not_of(" \t\r\n;"), stack.size()));
     const bool braced = !stack.empty() && stack.front() == '{';
@@ -104,7 +104,7 @@ void set_parameters(Finish& finish, std::string_view parameters) {
     while (true) {
         const std::string_view key = next_token(parameters);
         if (key.empty()) return;
-        // A key without a number: the next token is a key itself.
+        // If the next token is not a number, it is the next key.
         std::string_view rest = parameters;
         if (const auto value = finite_decimal(next_token(rest))) {
             set_parameter(finish, key, *value);
@@ -113,7 +113,7 @@ void set_parameters(Finish& finish, std::string_view parameters) {
     }
 }
 
-/// The next `count` numbers; nothing, and `parameters` unchanged, if there are fewer.
+/// Takes the next `count` numbers. If there are fewer, returns nothing and leaves `parameters` unchanged.
 template <std::size_t count>
 std::optional<std::array<double, count>> next_numbers(std::string_view& parameters) {
     std::string_view rest = parameters;
@@ -131,7 +131,7 @@ std::optional<std::array<double, count>> next_numbers(std::string_view& paramete
     return numbers;
 }
 
-/// Is a flag set? BRL-CAD reads it as a whole number.
+/// Is a flag set? BRL-CAD reads the flag as a whole number, so 0.5 is not set.
 bool is_set(double flag) { return static_cast<int>(std::clamp(flag, -1e9, 1e9)) != 0; }
 
 void set_parameter(Emission& light, std::string_view key, double value) {
@@ -152,7 +152,7 @@ void set_parameter(Emission& light, std::string_view key, double value) {
     }
 }
 
-/// Reads a light. `t`, `target` and `aim` are a point, `d` is a direction, as in the oldest files.
+/// Reads a light. `t`, `target` and `aim` give a point; `d`, in the oldest files, gives a direction.
 Emission read_light(std::string_view parameters) {
     Emission light;
     while (true) {
@@ -172,7 +172,7 @@ Emission read_light(std::string_view parameters) {
     }
 }
 
-/// The finish of a stack: that of its last shader of the Phong model.
+/// The finish of a stack, which is the finish of its last shader of the Phong model.
 Finish stack_finish(std::string_view stack) {
     stack = unwrapped(stack);
     Finish finish;
@@ -214,7 +214,7 @@ std::string shader_warning(std::string_view shader) {
 }
 
 void warn_of_shaders(Scene& scene) {
-    std::map<std::string, Warning> warnings;  // by reason: the order does not depend on the file's
+    std::map<std::string, Warning> warnings;  // by reason, so that their order does not depend on the file's
     const auto add = [&](const Combination& combination, std::string reason) {
         if (reason.empty()) return;
         const auto [found, is_new] =

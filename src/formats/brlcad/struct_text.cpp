@@ -70,7 +70,7 @@ double StructText::number(std::string_view key) {
     return read_number(value.text, value.offset);
 }
 
-/// Reads numbers and returns how many there are; more than `values` has room for are a Fault.
+/// Reads numbers and returns their count. A Fault if there are more than `values` can hold.
 std::size_t StructText::read_numbers(const Value& list, std::span<double> values) const {
     const std::string_view text = list.text;
     std::size_t count = 0;
@@ -111,14 +111,15 @@ void StructText::end() const {
 
 namespace {
 
-/// Reads the source. o: cells in an object; f, or in older databases 4: in a file.
+/// Reads the source of the cells. True: an object, "o". False: a file, "f", or "4" in older databases.
 bool read_source(StructText& p) {
     if (!p.has("src")) return false;
     const std::string source = p.text("src");
     return source == "o";
 }
 
-/// Reads the name of the cells' source: file, name or both; of both the last one counts, as in BRL-CAD.
+/// Reads the name of the cells' source from the keys file and name. If both are given, the last one counts, as in
+/// BRL-CAD.
 std::string read_name(StructText& p) {
     const bool by_name = p.has("name") && (!p.has("file") || p.place_of("name") > p.place_of("file"));
     std::string name = p.text(by_name ? "name" : "file");

@@ -1,5 +1,4 @@
-// Struct text: parameters as BRL-CAD's older solids write them, in databases of every form: key=value key="value"
-// key=1,2,3
+// Struct text: the parameters of some older solids, in databases of every form: key=value key="value" key=1,2,3
 #pragma once
 
 #include <cstddef>
@@ -15,20 +14,21 @@
 
 namespace csgrt {
 
-/// Reads such parameters. A missing or wrong value is a Fault at its position; `offset` is the position of the text.
+/// Reads such parameters by their keys. A missing or wrong value is a Fault at its position. `offset`: the text's
+/// position.
 class StructText {
 public:
     StructText(std::string_view text, std::size_t offset);
 
     bool has(std::string_view key) const { return values_.count(key) != 0; }
-    /// The position of the key's value, or of the text if it is missing.
+    /// The position of the key's value. If the key is missing, the position of the text.
     std::size_t place_of(std::string_view key) const;
     std::string text(std::string_view key);
     int integer(std::string_view key, int low, int high);
     std::uint32_t count(std::string_view key);  ///< 1 or more
     double number(std::string_view key);
     Vec3 vec3(std::string_view key);
-    /// Some programs omit the last row; it is then that of the identity.
+    /// Some programs omit the last row, which is then 0 0 0 1.
     Matrix matrix(std::string_view key);
     void end() const;
 

@@ -30,8 +30,8 @@ void append_utf8(std::string& out, unsigned code) {
     }
 }
 
-/// Appends the character whose code has up to `most` digits at `at`, and moves `at` past them; false if there is no
-/// digit.
+/// Appends the character whose code, of up to `most` digits, is at `at`, and moves `at` past the digits. False if there
+/// is no digit.
 bool append_code(std::string& out, std::string_view text, std::size_t& at, int base, int most) {
     unsigned code = 0;
     int digits = 0;
@@ -57,7 +57,7 @@ std::string without_backslashes(std::string_view text) {
             out += characters[known];
             ++at;
         } else if (c == '\n') {
-            // A continued line and the blanks at its start are one blank.
+            // The end of a continued line, and the blanks after it, become one blank.
             at = std::min(text.find_first_not_of(" \t", at + 1), text.size());
             out += ' ';
         } else if (digit_of(c, 8) >= 0) {
@@ -81,7 +81,7 @@ void TclReader::fail(std::size_t index, std::string message, std::string suggest
 
 bool TclReader::ends_word(char c) const { return is_blank(c) || c == '\n' || (script_ && c == ';'); }
 
-/// The length of a backslash and the end of a line at this position: together they are a blank.
+/// The length of a line's continuation at this position, which counts as a blank: a backslash and the end of a line.
 std::size_t TclReader::continuation() const {
     const std::string_view rest = source_.text.substr(std::min(at_, source_.text.size()));
     return rest.starts_with("\\\n") ? 2 : rest.starts_with("\\\r\n") ? 3 : 0;
@@ -111,7 +111,7 @@ TclWord TclReader::braced_word() {
             fail(open, "this brace is never closed");
         }
         const char c = peek();
-        if (c == '\\') ++at_;  // an escaped character opens and closes nothing
+        if (c == '\\') ++at_;  // an escaped brace does not count
         if (c == '{') ++depth;
         if (c == '}') --depth;
         ++at_;

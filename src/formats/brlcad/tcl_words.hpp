@@ -1,5 +1,5 @@
-// Tcl words, as far as a database needs them: commands of words, lists of words, braces, quotes and backslashes.
-// Nothing is executed: a $ or [ that Tcl would replace is a Fault.
+// Tcl words, as far as databases need them: commands and lists of words, with braces, quotes and backslashes. Nothing
+// is executed: a $ or [ that Tcl would replace is a Fault.
 #pragma once
 
 #include <cstddef>
@@ -12,21 +12,22 @@
 
 namespace csgrt {
 
-/// A word: its value and its position. The value is a part of the source, unless backslashes had to be replaced in it.
+/// A word: its value and its position. The value is a part of the source, except where backslashes were replaced.
 struct TclWord {
     std::string_view text;
     std::size_t offset = 0;  ///< of the value's first character in the source
     bool in_source = true;   ///< `text` is a part of the source, so `offset` holds for each character of it
     bool braced = false;
 
-    /// The position in the source of the character at `index`; the word's own if the value is not a part of the source.
+    /// The position in the source of the value's character `index`, or of the word if the value is not a part of the
+    /// source.
     std::size_t offset_at(std::size_t index) const { return in_source ? offset + index : offset; }
 };
 
-/// Memory for values that are not a part of the source; a deque, so that they never move.
+/// Memory for values that are not a part of the source. The elements of a deque never move.
 using TclStore = std::deque<std::string>;
 
-/// Reads one word after another. Cost is linear in the text, however deep its braces.
+/// Reads one word after another. The time is linear in the text's length, however deep its braces are.
 class TclReader {
 public:
     /// Reads the commands from `begin` on.
@@ -38,7 +39,8 @@ public:
     /// end. Throws Fault; then `skip_to` finds the next command.
     bool next_command(std::vector<TclWord>& words);
 
-    /// Skips to the next line, after the last command's first, that starts with one of the names and a blank.
+    /// Skips to the next line that starts with one of the names and a blank. The search begins after the last command's
+    /// first line.
     void skip_to(const std::vector<std::string_view>& names);
 
     std::size_t offset() const { return source_.offset_at(at_); }
@@ -61,7 +63,7 @@ private:
 
     TclWord source_;
     TclStore& store_;
-    bool script_;  ///< a script, else a list: in a list newlines separate words, and $ [ ; are letters
+    bool script_;  ///< false: a list, where newlines separate words and $ [ ; have no meaning
     std::size_t at_ = 0;
     std::size_t command_ = 0;  ///< the position of the last command
 };
@@ -79,8 +81,8 @@ private:
     TclReader reader_;
 };
 
-/// The name that a word stands for. g2asc writes the braces of a name as \{ and \}, inside braces, where Tcl would keep
-/// the backslashes. They are removed here, so that an object is found by the name that its users give.
+/// The name in a word. g2asc writes a name's braces as \{ and \} inside braces, where Tcl would keep the backslashes.
+/// They are removed here, so that the combinations that use the object find it.
 std::string tcl_name(const TclWord& word);
 
 }  // namespace csgrt

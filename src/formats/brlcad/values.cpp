@@ -17,8 +17,9 @@ struct Unit {
     std::string_view name;
     double millimetres;
 };
-/// Units of BRL-CAD with its factors, in small letters and without blanks, since neither counts. Of units of one length
-/// the first has the name that is written; of two units of one name (Mm and mm) the first is meant, both as in BRL-CAD.
+/// BRL-CAD's units and their lengths, with names in small letters and without blanks, because BRL-CAD ignores both. As
+/// in BRL-CAD, the first unit of a length gives the name that is written, and the first unit of a name is meant (mm,
+/// not Mm).
 constexpr Unit units[] = {
     {"mm", 1},
     {"none", 1},
@@ -91,8 +92,7 @@ constexpr Unit units[] = {
     {"parsec", 3.08568025e19},
 };
 
-/// The name of a unit in the form in which BRL-CAD compares names: without blanks, in small letters, without a plural's
-/// s.
+/// The name of a unit, as BRL-CAD compares names: without blanks, in small letters, without the s of a plural.
 std::string plain_unit_name(std::string_view name) {
     std::string plain;
     for (const char c : name)
@@ -101,11 +101,11 @@ std::string plain_unit_name(std::string_view name) {
     return plain;
 }
 
-/// The relative difference below which two units are equal, since a file rounds their decimals.
+/// The relative difference below which two units count as equal, because files hold rounded decimals.
 constexpr double unit_gap = 1e-9;
 
-/// The size below which an element of a matrix's last row is rounding of the program that wrote it, not perspective:
-/// over any model smaller than 1e6 metres such elements move a point by less than a part in a thousand.
+/// Elements of a matrix's last row below this size count as rounding, not as perspective. In a model smaller than 1e6
+/// metres such an element moves a point by less than a thousandth of its distance from the origin.
 constexpr double perspective_noise = 1e-12;
 
 }  // namespace

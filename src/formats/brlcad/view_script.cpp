@@ -46,14 +46,15 @@ struct ViewState {
     std::optional<std::array<Vec3, 3>> turn;
 };
 
-/// The axes of a quaternion. BRL-CAD's are x y z w, and turn the model into the view.
+/// The axes of a quaternion. BRL-CAD's quaternions are x y z w, and rotate from the model to the view.
 std::array<Vec3, 3> axes_of_quaternion(double x, double y, double z, double w) {
     return {Vec3{1 - 2 * (y * y + z * z), 2 * (x * y + z * w), 2 * (x * z - y * w)},
             Vec3{2 * (x * y - z * w), 1 - 2 * (x * x + z * z), 2 * (y * z + x * w)},
             Vec3{2 * (x * z + y * w), 2 * (y * z - x * w), 1 - 2 * (x * x + y * y)}};
 }
 
-/// The axes towards the eye: level, with +z up; straight down and up those of azimuth 0.
+/// The axes of a view from the direction `to_eye`, with +z up. Views from straight above or below have the axes of
+/// azimuth 0.
 std::array<Vec3, 3> axes_towards(const Vec3& to_eye) {
     const Vec3 back = unit(to_eye);
     const bool vertical = back.x == 0 && back.y == 0;
@@ -97,7 +98,7 @@ public:
     }
 
 private:
-    /// Reads the options of rt. -p: an angle in degrees.
+    /// Reads the options of rt: only -p, an angle in degrees, counts.
     void read_options(std::size_t begin, std::size_t end) {
         const std::vector<Word> words = words_of(source_.text(), begin, end);
         for (std::size_t i = 0; i < words.size(); ++i) {
@@ -215,8 +216,8 @@ private:
         camera.perspective = state_.perspective.value_or(0);
         camera.eye = eye;
         camera.up = up;
-        // The target is any point before the eye. A point as far away as the eye is from the origin keeps the
-        // direction's digits.
+        // The target may be any point ahead of the eye. A point about as far away as the origin keeps the digits of the
+        // direction.
         const double far = std::max({*state_.size, std::abs(eye.x), std::abs(eye.y), std::abs(eye.z)});
         camera.look_at = eye - far * unit(back);
         if (camera.perspective == 0) camera.view_size = state_.size;

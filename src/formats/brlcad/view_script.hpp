@@ -1,4 +1,4 @@
-// View scripts, as MGED's saveview writes them: shell scripts that feed commands to rt:
+// View scripts: shell scripts that MGED's saveview writes, and that give commands to rt:
 //
 //     #!/bin/sh
 //     rt -M -p40 ... <<EOF

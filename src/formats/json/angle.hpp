@@ -9,7 +9,7 @@ namespace csgrt {
 
 inline double radians_of(double degrees) { return degrees / 180 * std::numbers::pi; }
 
-/// The degrees that read back to the very same bits; nothing for angles without such degrees.
+/// The number of degrees that reads back to the same bits. Nothing if there is no such number.
 inline std::optional<double> degrees_of(double radians) {
     const double near = radians / std::numbers::pi * 180;
     for (const double candidate :

@@ -1,4 +1,4 @@
-// Forms that a solid may have in a scene file: its own, and the simpler ones that become it.
+// Forms of solids in a scene file: a solid's own form, and simple forms that the reader turns into the solid.
 #pragma once
 
 #include <tuple>
@@ -10,7 +10,8 @@
 
 namespace csgrt {
 
-/// The structs whose forms become a shape S, the most particular first: the writer uses the first that fits.
+/// The structs whose forms the reader turns into a shape S. The most special one comes first: the writer uses the first
+/// one that fits.
 template <class S>
 struct JsonFormsOf {
     using Types = std::tuple<S>;
@@ -35,7 +36,7 @@ struct JsonFormsOfAll<std::variant<S...>> {
     using Types = decltype(std::tuple_cat(std::declval<typename JsonFormsOf<S>::Types>()...));
 };
 
-/// Calls `each` with a pointer, which is null, to every struct that has a form of a solid.
+/// Calls `each` for every struct with a solid's form. The argument is a null pointer of the struct's type.
 template <class Each>
 void for_json_solids(Each each) {
     const auto call = [&]<class... S>(const std::tuple<S...>*) { (each(static_cast<const S*>(nullptr)), ...); };

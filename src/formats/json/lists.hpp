@@ -1,4 +1,4 @@
-// Lists: their items become JsonNodes only for a finding, since meshes have millions.
+// Lists: an item becomes a JsonNode only for a finding, because meshes have millions of items.
 #pragma once
 
 #include <array>
@@ -9,15 +9,15 @@
 
 namespace csgrt {
 
-// Reads an item. False if it is not what it should be. Numbers and vectors are multiplied by `scale`.
+// Reads an item. False if the item is of another type. Numbers and vectors are multiplied by `scale`.
 bool read_plain(const JsonValue& item, double scale, double& value);
 bool read_plain(const JsonValue& item, double scale, Vec3& value);
 bool read_plain(const JsonValue& item, double, std::uint32_t& value);
 bool read_plain(const JsonValue& item, double, std::uint8_t& value);
 bool read_plain(const JsonValue& item, double, std::array<std::uint32_t, 3>& value);
 
-/// Reads cells, of which there are millions: a list of strings, or one string, each of numbers from 0 to `most` with
-/// blanks between them. With `marks`, '.' is 0 and '#' is `most`, and neither needs a blank.
+/// Reads cells from a string or a list of strings: numbers from 0 to `most`, with blanks between them. With `marks`,
+/// '.' stands for 0 and '#' for `most`, and no blanks are needed beside them.
 std::vector<std::uint16_t> read_json_cells(const JsonNode& list, std::uint16_t most, bool marks);
 
 }  // namespace csgrt

@@ -165,7 +165,7 @@ JsonObject::JsonObject(const JsonNode& node, std::span<const JsonKey> keys) : no
     if (!node.present()) return;
     std::vector<std::string_view> known;
     for (const JsonKey& key : keys) known.push_back(key.name);
-    std::string suggested;  // a missing key that is misspelt is reported once
+    std::string suggested;  // the keys that unknown keys probably mean: they are not reported as missing, too
     for (const JsonNode::Member& member : node.members()) {
         if (std::find(known.begin(), known.end(), member.name) != known.end()) continue;
         std::string suggestion = did_you_mean(member.name, known);

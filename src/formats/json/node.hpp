@@ -1,5 +1,5 @@
-// Nodes: read typed values from JSON. A wrong value becomes a finding at its place, and reading goes on with a neutral
-// value: a scene with findings is never returned.
+// Nodes: read typed values from JSON. A wrong value becomes a finding with its position, and reading goes on with a
+// neutral value, because a scene with findings is never returned.
 #pragma once
 
 #include <cstdint>
@@ -21,8 +21,8 @@ struct JsonFile {
     double unit = 1;  ///< millimetres in the file's unit of length
 };
 
-/// A value and the path to it. It is absent if the file does not have it: then every reading function returns its
-/// neutral value without a finding.
+/// A value and its path in the file. For an absent value, every reading function returns its neutral value without a
+/// finding.
 class JsonNode {
 public:
     JsonNode(JsonFile& file, const JsonValue* value, std::string pointer)
@@ -55,14 +55,14 @@ public:
     /// The number in millimetres.
     double length() const { return file_->unit * number(); }
     Vec3 lengths() const;
-    /// A vector of any length but 0, as a unit vector; a unit vector keeps its bits.
+    /// A vector of any length but 0, made a unit vector. A unit vector keeps its bits.
     Vec3 direction() const;
     /// `count` numbers.
     std::vector<double> numbers(std::size_t count) const;
 
-    const JsonArray* array() const;  ///< null, and a finding, if it is not an array
+    const JsonArray* array() const;  ///< null, with a finding, if the value is not an array
     JsonNode item(std::size_t i) const;
-    /// The items of an array, the members of an object (each name once); for other values nothing, and a finding.
+    /// The items of an array, or the members of an object, each name once. Empty, with a finding, for other values.
     std::vector<JsonNode> items() const;
     struct Member;
     std::vector<Member> members() const;
@@ -95,7 +95,7 @@ struct JsonKey {
     bool required = false;
 };
 
-/// An object of given keys. Its constructor reports keys that are none of them, and required keys that are missing.
+/// An object with given keys. The constructor reports unknown keys, and required keys that are missing.
 class JsonObject {
 public:
     JsonObject(const JsonNode& node, std::span<const JsonKey> keys);

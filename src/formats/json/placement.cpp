@@ -13,7 +13,7 @@ namespace csgrt {
 
 namespace {
 
-/// Sine and cosine, exact for whole quarter turns: a solid that is turned onto another's face lies in that very plane.
+/// Sine and cosine, exact for whole quarter turns: then two faces that meet after a turn are in exactly one plane.
 std::pair<double, double> sine_and_cosine(double degrees) {
     const double rest = std::remainder(degrees, 360.0);
     if (rest == 0) return {0, 1};
@@ -24,12 +24,12 @@ std::pair<double, double> sine_and_cosine(double degrees) {
     return {std::sin(radians), std::cos(radians)};
 }
 
-/// The rotation about an axis through the origin, counterclockwise seen from its tip (Rodrigues).
+/// The rotation about an axis through the origin, counterclockwise as seen from the axis's tip (Rodrigues).
 Matrix rotation(const Vec3& axis, double degrees) {
     const auto [s, c] = sine_and_cosine(degrees);
     const Vec3 u = unit(axis);
     const auto both = [c = c](double p, double q) { return p * q * (1 - c); };
-    // u u + c (1 - u u), not c + (1 - c) u u: it is exactly 1 along a coordinate axis.
+    // u u + c (1 - u u), not c + (1 - c) u u: the former is exactly 1 along a coordinate axis.
     const auto own = [c = c](double p) { return p * p + c * (1 - p * p); };
     const Vec3 x{own(u.x), both(u.x, u.y) + s * u.z, both(u.x, u.z) - s * u.y};
     const Vec3 y{both(u.x, u.y) - s * u.z, own(u.y), both(u.y, u.z) + s * u.x};
@@ -39,12 +39,12 @@ Matrix rotation(const Vec3& axis, double degrees) {
 
 Matrix read_scale(const JsonNode& node) {
     const Vec3 s = node.is_array() ? node.vector() : node.number(1) * Vec3{1, 1, 1};
-    if (node.is_array() && !node.is_vector()) return identity;  // reported already
+    if (node.is_array() && !node.is_vector()) return identity;  // already reported
     if (s.x == 0 || s.y == 0 || s.z == 0) node.fault("a scale must not be 0: it would flatten the object");
     return {s.x, 0, 0, 0, 0, s.y, 0, 0, 0, 0, s.z, 0, 0, 0, 0, 1};
 }
 
-/// The matrix of a tree's node: from millimetres to millimetres, with its translation.
+/// The matrix of a tree's node, with its translation in millimetres.
 Matrix read_matrix(const JsonNode& node) {
     Matrix m = read_json_matrix(node);
     for (const std::size_t i : {3, 7, 11}) m[i] *= node.file().unit;

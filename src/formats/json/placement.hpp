@@ -10,16 +10,16 @@
 
 namespace csgrt {
 
-/// Reads 16 numbers, row by row, unchanged: which of them are lengths depends on the use of the matrix.
+/// Reads 16 numbers, row by row, without scaling lengths, because the matrix's use decides which numbers are lengths.
 Matrix read_json_matrix(const JsonNode& node);
 
-/// The matrix of a node; nothing if it has none of the keys.
+/// The matrix of a node. Nothing if the node has none of the keys.
 std::optional<Matrix> read_json_placement(const JsonObject& node);
 
-/// Whether element `i` of a matrix, row by row, is a length.
+/// Whether element `i` of a matrix, counted row by row, is a length.
 inline bool is_length(const form::Placement& placement, std::size_t i) { return i < 12 && placement.lengths[i % 4]; }
 
-/// The transform if a file has no matrix: cells as long as the file's unit, at the origin.
+/// The default transform of cells: at the origin, with the file's unit as the cells' size.
 inline Matrix usual_placement(const form::Placement& placement, double unit) {
     Matrix m = identity;
     for (const std::size_t i : {std::size_t{0}, std::size_t{5}, std::size_t{10}}) {

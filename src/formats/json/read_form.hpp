@@ -98,7 +98,7 @@ void read_per_face(const JsonNode& node, const form::PerFace<Item>& kind, std::s
     values.assign(faces, one);
 }
 
-/// Reads a placement. If there is none, cells are as long as the file's unit.
+/// Reads a placement, or returns the default, where cells have the size of the file's unit.
 Matrix read_placement(const JsonNode& node, const form::Placement& kind);
 /// Reads an angle in degrees, or in "radians".
 double read_turn(const JsonObject& o, form::Turn);
@@ -130,7 +130,8 @@ void read_member(const JsonObject& o, const Member& member, S& s) {
     }
 }
 
-/// `validate` checks the rules of the model's own structs, since other readers and programs make them too.
+/// Reads the members that a form describes. Rules are checked here only for forms that are not the model's own structs:
+/// `validate` checks those, because other readers and programs make them, too.
 template <class S, class Form>
 void read_members(const JsonObject& o, const Form& form, S& s) {
     form::for_members(form, [&](const auto& member) {

@@ -21,7 +21,8 @@ struct Material {
     std::optional<Finish> finish;
 };
 
-/// Reads a material. It has a finish if one of the finish's keys is there; the other keys have their defaults.
+/// Reads a material. The material has a finish if any of the finish's keys is given; then the other keys have their
+/// defaults.
 Material read_material(const JsonNode& node) {
     const JsonObject o = json_object(node, form::of<Finish>);
     Material material;
@@ -120,7 +121,7 @@ private:
         if (camera.center && camera.look_at) o["look_at"].fault("cannot stand beside \"center\": they are one point");
     }
 
-    /// Takes a name. False, and a finding, if the name is taken.
+    /// Registers a name. False, with a finding, if the name is empty or was registered before.
     bool take_name(const JsonNode::Member& member, const char* what) {
         if (member.name.empty()) {
             member.fault("a name must not be empty");
@@ -216,7 +217,7 @@ private:
         }
     }
 
-    /// Sorts the objects into the given order: solids and combinations may stand in any order among each other.
+    /// Sorts the objects into the order that the file gives, in which solids and combinations may be mixed.
     void read_order(const JsonNode& node) {
         if (!node.present()) return;
         std::vector<std::size_t> order;

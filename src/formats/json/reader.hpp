@@ -12,7 +12,8 @@ class TextSource;
 /// The version of the format, the value of the key "csgrt".
 inline constexpr int json_format_version = 1;
 
-/// Reads a .json file. Throws Error: file if it cannot be read, scene with every finding if it is wrong.
+/// Reads a .json file. Throws Error (file) if the file cannot be read, and Error (scene) with every finding if it is
+/// wrong.
 Scene read_json(const std::string& path);
 
 /// Reads a text in memory.

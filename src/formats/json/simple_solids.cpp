@@ -9,7 +9,7 @@ namespace csgrt {
 
 namespace {
 
-/// The given vertex for each of an arb's eight, for 4 to 8 given.
+/// For 4 to 8 given vertices: the given vertex that each of an arb's eight vertices is.
 constexpr std::array<std::array<std::size_t, 8>, 5> arb_orders = {{
     {0, 1, 2, 0, 3, 3, 3, 3},
     {0, 1, 2, 3, 4, 4, 4, 4},

@@ -1,5 +1,5 @@
-// Simple solids: given by numbers that a person knows. JSON's reader makes the model's solids of them. The writer uses
-// a simple solid if it makes the very same bits.
+// Simple solids, such as a sphere or a box, whose parameters are easy to write. JSON's reader turns them into the
+// model's solids. The writer uses a simple solid if the reader would get the same bits.
 #pragma once
 
 #include <array>
@@ -53,7 +53,7 @@ using Arb5 = ArbOf<5>;
 using Arb6 = ArbOf<6>;
 using Arb7 = ArbOf<7>;
 
-/// The model's solid.
+/// Converts to the model's solid.
 template <class S>
 S model_of(S solid) {
     return solid;
@@ -67,7 +67,7 @@ Arb model_of(const ArbOf<count>& s) {
     return arb({s.vertices.begin(), s.vertices.end()});
 }
 
-/// Makes the simple solid that becomes this very one. False: there is none.
+/// Finds the simple solid that becomes exactly `solid`. False: there is none.
 bool simplify(const Ell& solid, Sphere& simple);
 bool simplify(const Tgc& solid, Cone& simple);
 bool simplify(const Tgc& solid, Cylinder& simple);

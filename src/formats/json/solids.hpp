@@ -7,8 +7,8 @@
 
 namespace csgrt {
 
-/// Reads {"type": ..., ...}. The numbers of the simple types (sphere, cylinder, cone, box) are checked here; `validate`
-/// checks whether the general types enclose anything, since other readers and programs make them too.
+/// Reads {"type": ..., ...}. The numbers of simple types (sphere, cylinder, cone, box) are checked here. `validate`
+/// checks the general types, because other readers and programs make them, too.
 Shape read_json_solid(const JsonNode& node);
 
 /// The values of "type".

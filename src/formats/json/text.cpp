@@ -15,7 +15,7 @@ using nlohmann::ordered_json;
 constexpr std::size_t widest = 118;
 constexpr std::size_t step = 2;
 
-/// Appends a value on one line. Stops, half done, once the text is longer than `limit`.
+/// Appends a value on one line. Stops before the value's end once the text is longer than `limit`.
 void append_flat(std::string& out, const ordered_json& value, std::size_t limit) {
     if (value.is_structured()) {
         const bool object = value.is_object();
@@ -41,7 +41,7 @@ bool is_number_list(const ordered_json& value) {
            std::all_of(value.begin(), value.end(), [](const ordered_json& item) { return item.is_number(); });
 }
 
-/// Appends numbers, as many on a line as there is room for.
+/// Appends numbers, as many on each line as fit.
 void append_filled(std::string& out, const ordered_json& numbers, std::size_t indent) {
     const std::string line = '\n' + std::string(indent + step, ' ');
     std::size_t column = widest;
@@ -96,7 +96,9 @@ std::string readable_json_string(const std::string& text) {
 }
 
 std::string json_number(double value) {
-    if (value == 0 && std::signbit(value)) return "-0.0";  // "-0" is a whole number to many readers, and loses its sign
+    if (value == 0 && std::signbit(value))
+        return "-0.0";  // many readers take "-0" for a whole number, and lose its
+                        // sign
     char digits[32];
     return {digits, std::to_chars(digits, digits + sizeof digits, value).ptr};
 }

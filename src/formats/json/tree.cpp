@@ -14,7 +14,7 @@ namespace csgrt {
 
 namespace {
 
-/// The key that gives a node's kind: "object" or an operator; empty if there is none.
+/// The key that tells a node's kind: "object" or an operator. Empty if there is no such key.
 std::string_view kind_of_node(const JsonMembers& members) {
     for (const JsonMember& member : members) {
         if (member.name == "object" || member.name == "postfix") return member.name;
@@ -131,7 +131,8 @@ private:
         tree_.nodes.push_back({op, static_cast<std::uint32_t>(arity), {}, identity, node.place()});
     }
 
-    /// Reads an operator, which takes its operands from those that wait. False: reading on would have no meaning.
+    /// Reads an operator. `waiting`: the number of operands that no operator has taken yet. False: the rest of the tree
+    /// cannot be read.
     bool read_postfix_operator(const JsonNode& item, std::size_t& waiting) {
         const JsonObject o = json_object(item, form::postfix_operator);
         const std::string name = o["operator"].string();

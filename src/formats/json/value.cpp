@@ -1,8 +1,7 @@
-// Values with positions. nlohmann's parser reports values without their positions. Two facts give them back. Its lexer
-// reads character by character, so a counting iterator knows the end of the token that was just reported. And between
-// two tokens stand only blanks, commas and colons, so the next token starts at the first other character. (A number
-// ends one character later for the iterator, since the lexer looks ahead; this character is a blank, comma or bracket,
-// never a token's start.)
+// Values with positions. nlohmann's parser reports values without positions, but two facts give the positions. The
+// lexer reads character by character, so a counting iterator knows the end of the token that was just reported. Between
+// two tokens are only blanks, commas and colons, so the next token starts at the first other character. (After a
+// number, the iterator is one character further, because the lexer looks ahead.)
 #include "formats/json/value.hpp"
 
 #include <algorithm>
@@ -20,7 +19,7 @@ namespace csgrt {
 
 namespace {
 
-/// An iterator over a text that notes its position, for all its copies.
+/// An iterator over a text. All its copies note the position in one variable.
 class CountingIterator {
 public:
     using iterator_category = std::input_iterator_tag;
@@ -48,7 +47,7 @@ private:
     std::size_t* consumed_;
 };
 
-/// The part of nlohmann's message behind its position and "syntax error while parsing ... - ".
+/// nlohmann's message without the position and the words "syntax error while parsing ... - ".
 std::string plain_message(std::string message) {
     if (const std::size_t dash = message.find(" - "); dash != std::string::npos) message.erase(0, dash + 3);
     if (const std::size_t tail = message.find("; last read:"); tail != std::string::npos) message.erase(tail);
@@ -72,7 +71,7 @@ public:
     }
     bool number_unsigned(std::uint64_t value) { return add(static_cast<double>(value)); }
     bool number_float(double value, const std::string& digits) {
-        // The lexer reads with the locale's decimal point, of which it takes one byte.
+        // nlohmann's own value depends on the locale's decimal point, so the digits are read again.
         if (read_decimal(std::string_view(text_).substr(start(), digits.size()), value) == Decimal::too_large)
             value = std::numeric_limits<double>::infinity();
         return add(value);
@@ -112,7 +111,7 @@ public:
 private:
     struct Level {
         JsonValue* container;
-        std::unordered_map<std::string, std::size_t> names;  // of an object, with their positions
+        std::unordered_map<std::string, std::size_t> names;  // an object's names, with their positions
     };
 
     /// The position of the token that is being reported.
@@ -194,7 +193,7 @@ private:
     std::string_view text_;
     Findings& findings_;
     const std::size_t& consumed_;
-    std::size_t token_end_ = 0;  // of the token that was reported last
+    std::size_t token_end_ = 0;  // the end of the last reported token
     std::vector<Level> levels_;  // pointers stay valid: only the innermost container grows
     std::optional<JsonValue> root_;
 };

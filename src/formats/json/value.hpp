@@ -26,15 +26,15 @@ struct JsonMember {
     std::string name;
     std::size_t offset = 0;  ///< position of the name's first quote
     JsonValue value;
-    bool repeated = false;  ///< the object has the name already, and a finding reports it
+    bool repeated = false;  ///< an earlier member has the same name; a finding reports this
 };
 
-/// The first value of a name, or nullptr.
+/// The value of the first member with this name, or nullptr.
 const JsonValue* find_member(const JsonMembers& members, std::string_view name);
 
 /// Parses the whole text. Syntax errors, numbers beyond a double's range, brackets nested deeper than
-/// Limits::file_nesting and names that stand twice in one object become findings; parsing goes on only after the last
-/// kind. If there is no value, there is a finding.
+/// Limits::file_nesting and repeated names in one object become findings; parsing goes on only after a repeated name.
+/// If no value is returned, there is a finding.
 std::optional<JsonValue> parse_json(const TextSource& source, Findings& findings);
 
 /// The JSON pointer to a child of the value at `pointer`.

@@ -14,7 +14,7 @@ namespace csgrt {
 
 constexpr std::size_t word_size = 4, real_size = 8;  // bytes of a whole number and of a double
 
-/// A binary file in memory. Places in it are byte offsets.
+/// A binary file in memory. Findings give byte offsets.
 class ByteSource : public Source {
 public:
     /// `name`: the file's name in diagnostics.
@@ -42,14 +42,14 @@ public:
     std::string_view take(std::uint64_t count, const char* what);
     std::uint8_t byte(const char* what) { return static_cast<std::uint8_t>(take(1, what)[0]); }
 
-    /// A whole number of 1, 2, 4 or 8 bytes: `width` is 0, 1, 2 or 3.
+    /// A whole number of 1, 2, 4 or 8 bytes, for `width` 0, 1, 2 or 3.
     std::uint64_t number(unsigned width, const char* what);
     /// A whole number of 1, 2, 4 or 8 bytes whose highest bit is a sign.
     std::int64_t signed_number(unsigned width, const char* what);
 
     /// A number of 4 bytes.
     std::uint32_t word(const char* what) { return static_cast<std::uint32_t>(number(2, what)); }
-    /// A word that counts items of `size` bytes each, all of which fit the rest.
+    /// A word that is a number of items of `size` bytes each. A Fault if the rest of the bytes cannot hold so many.
     std::uint32_t count(std::size_t size, const char* what);
     /// A word that is less than `end`.
     std::uint32_t index(std::size_t end, const char* what);
@@ -58,10 +58,10 @@ public:
     double real(const char* what);
     Vec3 vec3(const char* what);
 
-    /// The next byte, which must be there. The position stays.
+    /// The next byte, without taking it. There must be a byte.
     char peek() const { return bytes_.front(); }
 
-    /// A text without the zero byte that ends it.
+    /// A text that a zero byte ends, without this byte.
     std::string_view text(const char* what);
     /// A text that is not empty.
     std::string_view name(const char* what);

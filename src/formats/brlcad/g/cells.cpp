@@ -1,6 +1,5 @@
-// Cells: solids of binary databases whose cells stand in a file or an object of their own. An ebm and a vol are a text
-// of keys and values; a dsp is width, depth: counts  a matrix of 16 doubles  smooth: 2 bytes  source, cut: letters  a
-// name.
+// Cells: solids of binary databases whose cells are in another file or object. An ebm and a vol are a text of keys and
+// values. A dsp is width, depth: counts  a matrix of 16 doubles  smooth: 2 bytes  source, cut: letters  a name.
 #include "formats/brlcad/codes.hpp"
 #include "formats/brlcad/g/solids.hpp"
 #include "formats/brlcad/struct_text.hpp"

@@ -25,7 +25,7 @@ int choice(ByteReader& b, int last, const char* what) {
     return value;
 }
 
-/// Checks, before memory is reserved, that `count` items of `size` bytes each can stand here.
+/// Checks, before memory is reserved, that the rest of the bytes can hold `count` items of `size` bytes each.
 void expect(const ByteReader& b, std::uint64_t count, std::size_t size, const char* what) {
     if (count > b.left() / size) {
         throw Fault{b.offset(),
@@ -76,7 +76,7 @@ Shape read_g_bot(ByteReader& b) {
         bot.normals = points(b, normals, "a normal");
         bot.face_normals = triangles(b, face_normals, normals, "a face's normal");
     }
-    if ((flags & has_texture) != 0) b.take(b.left(), "places in a texture");  // not a part of the shape
+    if ((flags & has_texture) != 0) b.take(b.left(), "places in a texture");  // they do not change the shape
     return bot;
 }
 

@@ -3,8 +3,8 @@
 //     0x76  flags of the object, of its attributes, of its body  major type  minor type  length
 //     name?  attributes?  body?  padding  0x35
 //
-// The parts that the flags announce stand after their own lengths. The length of the object counts units of 8 bytes,
-// from the 0x76 to the 0x35. Every length has 1, 2, 4 or 8 bytes, highest first; its flags tell which.
+// The flags tell which parts exist. Each part follows its own length. The object's length is in units of 8 bytes, from
+// the 0x76 to the 0x35. A length has 1, 2, 4 or 8 bytes, as the flags say, highest byte first.
 #include "formats/brlcad/g/object.hpp"
 
 namespace csgrt {
@@ -39,7 +39,7 @@ std::string read_name(ByteReader& bytes, std::uint8_t flags) {
 
 GBlock read_block(ByteReader& bytes, std::uint8_t flags, const char* what) {
     GBlock block;
-    block.offset = bytes.offset();  // the position where it would stand
+    block.offset = bytes.offset();  // the part's position, even if it is missing
     if ((flags & is_present) == 0) return block;
     const std::uint64_t length = bytes.number(width_of(flags), what);
     block.offset = bytes.offset();
@@ -48,7 +48,7 @@ GBlock read_block(ByteReader& bytes, std::uint8_t flags, const char* what) {
     return block;
 }
 
-/// The name of an object that is cut off, for a finding; empty if even the name is missing.
+/// The name of an object that is cut off, for a finding. Empty if the name is cut off, too.
 std::string name_if_any(ByteReader bytes, std::uint8_t flags) {
     try {
         return read_name(bytes, flags);
@@ -103,7 +103,7 @@ void read_g_object(const ByteSource& source, std::size_t offset, GObject& object
 std::vector<Attribute> read_g_attributes(const GBlock& block) {
     std::vector<Attribute> attributes;
     ByteReader bytes = read_g_block(block, "the attributes");
-    // An empty key ends the attributes. Binary ones may follow, but none of a shape.
+    // An empty key ends the attributes. Binary attributes may follow, but none that concerns a shape.
     while (bytes.left() > 0 && bytes.peek() != 0) {
         Attribute attribute;
         attribute.key = bytes.name("an attribute");

@@ -11,7 +11,7 @@
 
 namespace csgrt {
 
-/// A part of an object, as it stands in the file.
+/// The bytes of an object's part.
 struct GBlock {
     std::string_view bytes;
     std::size_t offset = 0;
@@ -23,14 +23,15 @@ struct GObject {
     enum class Kind { data, header, free, unknown };
 
     std::size_t offset = 0;
-    std::size_t end = 0;  ///< the position of the next object; 0 if it is not known
+    std::size_t end = 0;  ///< the position of the next object; 0: unknown
     Kind kind = Kind::data;
     int major = 0, minor = 0;
-    std::string name;  ///< empty if the object has none, or it is not known
+    std::string name;  ///< empty if the object has no name, or an unknown one
     GBlock attributes, body;
 };
 
-/// Reads the object at `offset`; its body stays undecoded. Throws Fault; `object` then has the parts that were read.
+/// Reads the object at `offset`, without decoding its body. Throws Fault, and then `object` has the parts that were
+/// read.
 void read_g_object(const ByteSource& source, std::size_t offset, GObject& object);
 
 /// The attributes of an object. Throws Fault.

@@ -1,7 +1,7 @@
-// Reader of a binary database, which is a row of objects. The first is its header; _GLOBAL holds title, unit and region
-// colours as attributes; geometry is solids and combinations, whose attributes make them regions. Binary data may be
-// cells of a solid. A scene needs no other objects (free storage, notes). Lengths are millimetres; the unit is for
-// display.
+// Reader of a binary database, which is a sequence of objects. The first object is the header. The attributes of
+// _GLOBAL are the title, the unit and the region colours. Other objects are solids, combinations, and binary data that
+// may be a solid's cells. Attributes make a combination a region. Free storage and notes are ignored. Lengths are in
+// millimetres; the unit is for display.
 #include "formats/brlcad/g/reader.hpp"
 
 #include <new>
@@ -22,8 +22,7 @@ namespace {
 constexpr int major_geometry = 1, major_attributes = 2, major_numbers = 9;
 constexpr int minor_combination = 31;
 
-/// Does the file begin as release 4 does? Its records start with a letter, the first with I, a unit's number and the
-/// release.
+/// Does the file begin as databases of release 4 do? Their first record begins with I, a unit's number and the release.
 bool is_release_4(std::string_view bytes) {
     return bytes.size() > 2 && bytes.starts_with('I') && bytes.substr(2, 2) == "v4";
 }
@@ -62,7 +61,8 @@ private:
                 check_header(object);
                 read_object(object);
             } catch (Fault& fault) {
-                // An object without an end has no next object; a file without a header at its start is of another kind.
+                // Without an object's end, the next object cannot be found. Without a header at its start, the file is
+                // of another kind.
                 if (object.end == 0 || is_misplaced(object)) {
                     findings_.add(std::move(fault), object.name);
                 } else {

@@ -11,9 +11,9 @@ namespace csgrt {
 
 class ByteSource;
 
-/// Reads a .g file. Throws Error: file if it cannot be read, scene with every finding if it is wrong, out_of_memory if
-/// the host cannot hold it. Solids that csgrt does not know become Unsupported. Places give the byte and the object.
-/// `lenient`: the opposite of LoadOptions::strict. `file_folders`: see LoadOptions.
+/// Reads a .g file. Throws Error (file) if the file cannot be read, Error (scene) with every finding if it is wrong,
+/// and Error (out_of_memory). Solids of types that csgrt does not know become Unsupported. Findings give the byte and
+/// the object. `lenient`: the opposite of LoadOptions::strict. `file_folders`: see LoadOptions.
 Scene read_brlcad_g(const std::string& path, bool lenient = false, const std::vector<std::string>& file_folders = {});
 
 /// Whether these bytes begin a binary database, of release 5 or 4.

@@ -14,7 +14,7 @@ namespace csgrt {
 
 namespace {
 
-constexpr std::uint32_t is_rational = 1;  // in the type of a nurb's points
+constexpr std::uint32_t is_rational = 1;  // a bit in the type of a nurb's points
 
 Sketch::Curve line(ByteReader& b, std::size_t vertices) {
     const std::uint32_t start = b.index(vertices, "the start of a line");
@@ -81,7 +81,7 @@ Sketch::Curve read_curve(ByteReader& b, std::size_t vertices) {
 
 }  // namespace
 
-/// The plane of a sketch is not read: the solids that the sketch makes have planes of their own.
+/// The plane of a sketch is ignored, because the solids that use the sketch have their own planes.
 Sketch read_g_sketch(ByteReader& b) {
     for (const char* what : {"V", "A", "B"}) b.vec3(what);
     const std::uint32_t vertices = b.count(2 * real_size, "the number of vertices");

@@ -42,11 +42,12 @@ Shape arbn(ByteReader& b) {
     return solid;
 }
 
-// The parts of braces are evaluated from left to right: in the order of the file, where it is not the description's.
+// Initializers in braces are evaluated from left to right, so they read the values in the file's order. These solids
+// need code because this is not the description's order.
 
 Shape eto(ByteReader& b) { return Eto{b.vec3("V"), b.vec3("N"), b.vec3("C"), b.real("r"), b.real("r_d")}; }
 
-/// Eight more bytes follow, which BRL-CAD never sets.
+/// Eight more bytes follow, which BRL-CAD does not use.
 BrlcadItem hyp(ByteReader& b) {
     BrlcadItem solid = described<Hyp>(b);
     if (b.left() == real_size) b.take(real_size, "what follows a hyp");

@@ -59,7 +59,7 @@ private:
         leaf_count_ = bytes_.number(width_, "the number of leaves");
         const std::uint64_t leaf_bytes = bytes_.number(width_, "the size of the leaves");
         const std::uint64_t token_count = bytes_.number(width_, "the length of the expression");
-        bytes_.number(width_, "the depth of the tree");  // a hint for a stack, which this reader does not have
+        bytes_.number(width_, "the depth of the tree");  // the size of a stack that this reader does not need
 
         if (matrix_count_ > bytes_.left() / matrix_size) {
             throw Fault{matrices_begin,
@@ -79,7 +79,7 @@ private:
         if (leaf_count_ < 2) return;
         TreeNode node;
         node.op = Operator::union_;
-        node.arity = static_cast<std::uint32_t>(leaf_count_);  // all leaves were read
+        node.arity = static_cast<std::uint32_t>(leaf_count_);  // all leaves are operands
         node.place = tree_.nodes.front().place;
         tree_.nodes.push_back(std::move(node));
     }

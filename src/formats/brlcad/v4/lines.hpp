@@ -25,7 +25,7 @@ public:
     explicit LineReader(std::string_view text, std::size_t begin = 0) : text_(text), next_(begin) {}
 
     bool at_end() const { return next_ >= text_.size(); }
-    /// The line that `take` would give, without taking it; empty at the end.
+    /// The next line, without taking it. Empty at the end.
     Line peek() const {
         const std::string_view rest = text_.substr(std::min(next_, text_.size()));
         std::string_view line = rest.substr(0, rest.find('\n'));

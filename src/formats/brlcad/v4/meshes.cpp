@@ -14,7 +14,8 @@ namespace csgrt {
 
 namespace {
 
-/// The next line, if it starts with one of `starts`; a Fault if not: `done` of `count` are there.
+/// Takes the next line, which must start with one of `starts`; otherwise a Fault says that `done` of `count` lines
+/// exist.
 Line next_line(LineReader& lines, std::uint64_t done, std::uint64_t count, std::string_view starts, const char* what) {
     const Line line = lines.peek();
     if (lines.at_end() || line.text.empty() || starts.find(line.text[0]) == std::string_view::npos) {

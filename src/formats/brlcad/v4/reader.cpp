@@ -1,4 +1,4 @@
-// Reader of BRL-CAD's older text form: a record a line, its kind the first letter.
+// Reader of BRL-CAD's older text form. Each line is a record, whose first letter is its kind:
 //
 //     I units version            then a line with the title
 //     S type name comgeom 24 numbers, and n s t w p N P b A e c d: solids
@@ -7,8 +7,9 @@
 //                                then M operator member 16 numbers, one for each member
 //     m flags low high r g b     the colour of region ids low to high
 //
-// Lengths are millimetres; I's unit is for display. A matrix stands row by row. Members combine from left to right: a
-// union starts a new term, + - ^ apply to the term so far; the first operator has no meaning.
+// Lengths are in millimetres; the unit of I is for display. Matrices are row by row. Members combine from left to
+// right: u starts a new term of a union, and + - ^ apply to the term so far. The first member's operator has no
+// meaning.
 #include <iterator>
 #include <utility>
 #include <vector>
@@ -39,7 +40,7 @@ Operator operator_of(const Field& field) {
     throw Fault{field.offset, quoted(field.text) + " is no operator", "operators are u + - ^"};
 }
 
-/// The tree of a combination's members; neighbours with one operator are one node.
+/// The tree of a combination's members. Neighbours with the same operator share one node.
 Tree tree_of(std::vector<Member> members) {
     Tree tree;
     std::uint32_t terms = 0;
@@ -66,7 +67,7 @@ Tree tree_of(std::vector<Member> members) {
     return tree;
 }
 
-/// Whether the line can be a record's first, not a line of its data.
+/// Whether the line can be the first of a record, not a later line with its data.
 bool starts_record(const Line& line) {
     return line.text.size() > 1 && line.text[1] == ' ' &&
            std::string_view("ISCMmABPQDF#").find(line.text[0]) != std::string_view::npos;
@@ -136,7 +137,7 @@ private:
         }
     }
 
-    /// Adds a broken object. A record at the end of the file shows that the file is cut off.
+    /// Adds a broken object. If the fault is at the end of the file, the file is cut off.
     void add_broken(const char* type, Fault fault) {
         if (source_.text().find_first_not_of(" \t\r\n", fault.offset) == std::string_view::npos) {
             findings_.add(std::move(fault), object_);
@@ -174,7 +175,7 @@ private:
         }
     }
 
-    /// Adds one finding for neighbouring lines without a record.
+    /// Adds one finding for consecutive lines that are no records.
     void refuse_record(const Line& line) {
         const char first = line.text[0];
         while (!lines_.at_end() && lines_.peek().text.starts_with(first)) lines_.take();
@@ -252,14 +253,14 @@ private:
         object_ = combination.name;
         combination.region_id = fields.integer("the region id");
         combination.air = fields.integer("the air code");
-        fields.integer("the number of members");  // wrong in many files; the lines count
+        fields.integer("the number of members");  // ignored: wrong in many files, and the lines themselves are counted
         fields.integer("the COMGEOM number");
         combination.material_id = fields.integer("the material");
         combination.los = fields.integer("the line-of-sight equivalent");
         const bool has_color = fields.integer("the colour's flag") != 0;
         if (const Vec3 color = read_rgb(fields); has_color) combination.color = color;
 
-        // The oldest files end here, later files after the shader's flag.
+        // In the oldest files the line ends here, in later files after the shader's flag.
         const bool has_shader = fields.more() && fields.integer("the shader's flag") != 0;
         const bool has_parameters = fields.more() && fields.integer("the parameters' flag") != 0;
         const bool inherits = fields.more() && fields.integer("the inheritance") != 0;
@@ -295,7 +296,7 @@ private:
     Findings findings_;
     LineReader lines_;
     BrlcadObjects objects_;
-    std::string object_;  ///< the name of the current object, as far as it is known
+    std::string object_;  ///< the name of the current object, once it is known
 };
 
 }  // namespace

@@ -12,7 +12,7 @@ namespace csgrt {
 
 namespace {
 
-constexpr int is_rational = 1;  // in the type of a nurb's points
+constexpr int is_rational = 1;  // a bit in the type of a nurb's points
 
 Line data_line(LineReader& lines) {
     const Line line = lines.peek();
@@ -39,7 +39,7 @@ double number(Fields& fields, const char* what) {
     return read_number(field.text, field.offset);
 }
 
-/// Reads all vertices of a line: as many as are announced.
+/// Reads a line of exactly `count` vertices.
 std::vector<std::uint32_t> vertices_of(const Line& line, std::int64_t count, std::size_t end) {
     Fields fields(line);
     std::vector<std::uint32_t> out;

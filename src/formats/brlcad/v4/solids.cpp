@@ -14,15 +14,17 @@ namespace {
 
 using Parameters = std::array<double, 24>;
 
-/// The length by which a torus' tube may exceed its circle and still be equal, rounded to a v4 database's floats.
+/// The part by which a torus's tube may be thicker than its circle and still count as equal, because v4 databases hold
+/// floats.
 constexpr double torus_rounding = 1e-6;
 
-/// The most faces of an arbn: the reader must not wait for an absurd number.
+/// The most faces of an arbn, so that an absurd number is refused at once.
 constexpr int max_faces = static_cast<int>(Limits::faces);
 
 Vec3 vec3_at(const Parameters& p, std::size_t at) { return {p[at], p[at + 1], p[at + 2]}; }
 
-/// The length, rounded as in BRL-CAD's conversion of these databases to .g files, so that both give the same scene.
+/// The length of a vector. It is rounded as BRL-CAD's converter to .g files rounds it, so that both files give the same
+/// scene.
 double length(const Vec3& v) { return std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z); }
 
 /// Reads numbers in the order of the description.
@@ -166,7 +168,7 @@ Shape spline(Fields& fields, LineReader& lines) {
     return Unsupported{"bspline"};
 }
 
-/// Reads `s type name parameters`: key=value, except for types that csgrt does not know, which may have any text.
+/// Reads `s type name parameters`. The parameters are key=value; types that csgrt does not know may have any text.
 BrlcadItem string_solid(Fields& fields, std::string& name) {
     const std::string type(fields.next("the solid's type").text);
     name = fields.next("the solid's name").text;

@@ -8,14 +8,15 @@
 
 namespace csgrt {
 
-/// Whether a record of this letter is a solid, or a part of one.
+/// Whether records with this letter are solids or parts of solids.
 bool is_v4_solid(char letter);
 
-/// Reads the object that `line` starts, and takes its other lines. `name` is set as soon as it is known, also when a
-/// Fault is thrown.
+/// Reads the object whose first line is `line`, and takes its other lines. Sets `name` as soon as it is known, also if
+/// a Fault is thrown later.
 BrlcadItem read_v4_solid(const Line& line, LineReader& lines, std::string& name);
 
-// Readers of single types, by family. The record's letter is read already, and its name, except by those that set it.
+// Readers of single types, by family. The record's letter is already read. So is its name, except for functions with
+// the parameter `name`.
 Shape read_v4_bot(Fields& fields, LineReader& lines);
 Shape read_v4_pipe(Fields& fields, LineReader& lines);
 Shape read_v4_ars(Fields& fields, LineReader& lines, std::string& name);

@@ -62,7 +62,7 @@ Vec3 read_color(const TclWord& word) {
     return color_of_bytes(components[0], components[1], components[2]);
 }
 
-/// Reads the unit: here it is a length in millimetres. It is for display only, so a length without meaning is
+/// Reads the unit, which is written as a length in millimetres. The unit is only for display, so a wrong length is
 /// tolerated, as in BRL-CAD.
 void set_unit_length(Scene& scene, const TclWord& value, const Source& source) {
     double length = 0;
@@ -73,7 +73,7 @@ void set_unit_length(Scene& scene, const TclWord& value, const Source& source) {
     }
     if (length > 0) {
         scene.units = unit_name(length);
-        const double known = unit_in_millimetres(scene.units);  // without the rounding of its decimals
+        const double known = unit_in_millimetres(scene.units);  // exact, while the file's decimals are rounded
         scene.unit_length = known > 0 ? known : length;
     } else {
         scene.warnings.push_back({{},

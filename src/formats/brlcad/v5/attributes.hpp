@@ -11,21 +11,22 @@
 
 namespace csgrt {
 
-/// A key and its value, as a database has them.
+/// An attribute's key and value.
 struct Attribute {
     std::string_view key;
     TclWord value;
 };
 
-/// Sets the member of an attribute, in any of BRL-CAD's spellings; false if csgrt does not know the key. Throws Fault.
+/// Sets the combination's member for an attribute's key, in any of BRL-CAD's spellings. False if csgrt does not know
+/// the key. Throws Fault.
 bool set_attribute(Combination& combination, const Attribute& attribute);
 
-/// Sets all attributes that csgrt knows. If two spellings of one key are given (shader and oshader), the standard one
-/// counts, whatever their order, as in BRL-CAD. A wrong attribute is tolerated if `findings` can; the others count.
+/// Sets all attributes that csgrt knows. If two spellings of one key are given (shader and oshader), the standard
+/// spelling counts in any order, as in BRL-CAD. In a lenient scene, wrong attributes are ignored with a warning.
 void set_attributes(Combination& combination, std::span<const Attribute> attributes, Findings& findings);
 
-/// Sets the title, the unit or the region colours, the attributes of _GLOBAL, the database itself; other keys are
-/// ignored. An unknown unit is a warning. Throws Fault.
+/// Sets the title, the unit or the region colours, which are attributes of the object _GLOBAL. Other keys are ignored.
+/// An unknown unit is a warning. Throws Fault.
 void set_global_attribute(Scene& scene, const Attribute& attribute, const Source& source);
 
 /// Reads an entry of the colour table: low high red green blue. Throws Fault.

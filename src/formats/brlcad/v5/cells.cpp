@@ -1,4 +1,4 @@
-// Cells: solids of the newer text form whose cells stand in a file or an object of their own.
+// Cells: solids of the newer text form whose cells are in another file or object.
 
 #include "formats/brlcad/codes.hpp"
 #include "formats/brlcad/v5/solids.hpp"
@@ -8,7 +8,7 @@ namespace csgrt {
 
 namespace {
 
-/// Reads the source. "o": cells in an object; "f", or in older databases "4": in a file.
+/// Reads the source of the cells. True: an object, "o". False: a file, "f", or "4" in older databases.
 bool read_source(Parameters& p) {
     if (!p.has("src")) return false;
     const TclWord& word = p.take("src");
@@ -17,8 +17,8 @@ bool read_source(Parameters& p) {
     throw Fault{word.offset, quoted(word.text) + " is no kind of source", "f is a file, o an object"};
 }
 
-/// Reads the name of the cells' source. BRL-CAD writes it as file, as name or as both, older programs as F; of several
-/// the last one counts, as in BRL-CAD.
+/// Reads the name of the cells' source. BRL-CAD writes the key file, name or both, and older programs write F. If
+/// several are given, the last one counts, as in BRL-CAD.
 std::string read_name(Parameters& p) {
     std::string_view last = "file";
     for (const std::string_view key : {"file", "F", "name"}) {
@@ -74,7 +74,7 @@ BrlcadItem read_v5_dsp(Parameters& p) {
     return {Shape(std::move(dsp)), in_object};
 }
 
-/// Reads numbers. T is their type, D their bytes as hexadecimal digits, with blanks and newlines between.
+/// Reads numbers. T is their type; D has their bytes as hexadecimal digits, with blanks and newlines between them.
 BrlcadNumbers read_v5_numbers(Parameters& p) {
     BrlcadNumbers numbers;
     numbers.type = p.integer("T", 0, 255);

@@ -22,18 +22,18 @@ constexpr int largest_integer = std::numeric_limits<int>::max();
 
 using Triangle = std::array<std::uint32_t, 3>;
 
-/// Reads the keys of one solid (or of a part of one) and their values. Each call takes a value; `end` refuses those
-/// left. A missing or wrong value is a Fault at its position.
+/// The keys and values of one solid, or of a part of a solid. Each call takes a value; `end` refuses keys that were not
+/// taken. A missing or wrong value is a Fault at its position.
 class Parameters {
 public:
-    /// The values of the key `repeatable` are kept apart: it may stand more than once.
+    /// Only the key `repeatable` may be given more than once; its values are kept apart.
     Parameters(const TclWord& type, std::span<const TclWord> words, TclStore& store, std::string_view repeatable = {});
 
     bool has(std::string_view key) const { return values_.count(key) != 0; }
-    /// Returns the spelling of a key that is there; the first if none is.
+    /// Returns the key of `keys` that is given, or the first key if none is.
     std::string_view one_of(std::initializer_list<std::string_view> keys) const;
 
-    /// The position of the key's value, or of the solid's type if it is missing.
+    /// The position of the key's value. If the key is missing, the position of the solid's type.
     std::size_t place_of(std::string_view key) const;
     const TclWord& take(std::string_view key);
     double number(std::string_view key);

@@ -6,7 +6,7 @@
 //     put {name} comb region yes tree {...}   a combination
 //     attr set {name} {key} {value} ...       attributes of an object, or of _GLOBAL, the database
 //
-// Lengths are millimetres; the unit is for display.
+// Lengths are in millimetres; the unit is for display.
 #include <algorithm>
 #include <span>
 #include <unordered_set>
@@ -26,7 +26,8 @@ namespace csgrt {
 
 namespace {
 
-/// Bytes that may be read twice: an unclosed brace is searched to the end of the file, and reading goes on behind it.
+/// The most bytes that are read again. A brace's end is searched up to the end of the file; if there is none, reading
+/// goes on right after the command, so many unclosed braces would take quadratic time.
 constexpr std::size_t most_read_again = std::size_t{1} << 28;
 
 /// Reads a v5 text database command by command. A broken command becomes a finding, and reading goes on at the next.
@@ -46,7 +47,7 @@ public:
             try {
                 if (!commands_.next_command(words_)) break;
             } catch (Fault& fault) {
-                // The words of the command that were read name its object.
+                // The command's words before the fault name its object.
                 if (words_.size() > 1 && words_[0].text == "put") {
                     object_ = tcl_name(words_[1]);
                     broken_.insert(object_);
@@ -151,7 +152,9 @@ private:
                 combination.tree = read_v5_tree(value, source_, object_, store_);
                 continue;
             }
-            if (key.text == "material" || key.text == "temp") continue;  // no shape or colour depends on these
+            if (key.text == "material" || key.text == "temp")
+                continue;  // neither shapes nor colours depend on these
+                           // keys
             try {
                 if (!set_attribute(combination, {key.text, value}))
                     throw Fault{key.offset, quoted(key.text) + " is no parameter of a comb", {}};
@@ -200,9 +203,9 @@ private:
     TclReader commands_;
     std::vector<TclWord> words_;
     BrlcadObjects objects_;
-    std::unordered_set<std::string> broken_;  ///< objects whose put had a finding; their attributes give no second
+    std::unordered_set<std::string> broken_;  ///< objects whose `put` had a finding: their attributes add no second
                                               ///< finding
-    std::string object_;                      ///< the name of the current object, as far as it is known
+    std::string object_;                      ///< the name of the current object, once it is known
 };
 
 }  // namespace

@@ -45,7 +45,7 @@ Sketch::Curve bezier(Parameters& p, std::size_t vertices) {
 Sketch::Curve nurb(Parameters& p, std::size_t vertices) {
     Sketch::Nurb curve;
     curve.order = p.count("O");
-    if (p.has("T")) p.take("T");  // the kind of the points; the weights show it, too
+    if (p.has("T")) p.take("T");  // the type of the points, which the weights tell, too
     const std::size_t knots_at = p.place_of("K");
     curve.knots = p.all_numbers("K");
     curve.points = p.indices("P", vertices);
@@ -89,7 +89,7 @@ Sketch::Curve read_curve(const TclWord& word, std::size_t vertices, TclStore& st
 
 }  // namespace
 
-/// The plane V A B of a sketch is not used: the solids that it makes have their own.
+/// The plane V A B of a sketch is ignored, because the solids that use the sketch have their own planes.
 Sketch read_v5_sketch(Parameters& p) {
     for (const std::string_view key : {"V", "A", "B"}) p.vec3(key);
     Sketch sketch;
@@ -105,7 +105,9 @@ Sketch read_v5_sketch(Parameters& p) {
 Shape read_v5_extrude(Parameters& p) {
     Extrude solid{p.vec3("V"), p.vec3("H"), p.vec3("A"), p.vec3("B"), {}};
     solid.sketch.name = p.take("S").text;
-    if (p.has("K")) p.integer("K", -largest_integer, largest_integer);  // the key point's vertex, for an editor
+    if (p.has("K"))
+        p.integer("K", -largest_integer, largest_integer);  // the vertex of the key point, which only
+                                                            // editors use
     return solid;
 }
 

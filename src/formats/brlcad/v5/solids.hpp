@@ -11,8 +11,9 @@
 
 namespace csgrt {
 
-/// Reads an object of a type with keys and values. Solids of types that csgrt does not know are Unsupported, their
-/// values unread. Throws Fault for keys that are missing, unknown or given twice, and for values that are not numbers.
+/// Reads an object of a type with keys and values. Solids of types that csgrt does not know become Unsupported, and
+/// their values are not read. Throws Fault for keys that are missing, unknown or given twice, and for values that are
+/// not numbers.
 BrlcadItem read_v5_object(const TclWord& type, std::span<const TclWord> keys_and_values, TclStore& store);
 
 // Readers of single types, by family.

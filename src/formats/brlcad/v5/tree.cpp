@@ -49,14 +49,14 @@ public:
     }
 
 private:
-    /// The first node of an operand in the tree. The empty set has no nodes: it is folded into its operator at once, so
-    /// the tree never holds one.
+    /// An operand: its first node in the tree, or the empty set. The tree has no nodes for the empty set, because an
+    /// operator with an empty operand is simplified at once.
     struct Operand {
         std::size_t first;
         bool empty;
     };
     struct OpenNode {
-        Operator op;  ///< leaf: G or X, whose node is its operand's
+        Operator op;  ///< leaf: G or X, which add no node of their own
         std::size_t at;
         std::vector<Operand> operands{};
     };
@@ -117,7 +117,7 @@ private:
         end_node({left.first, false});
     }
 
-    /// The result of an operator over operands of which at least one is the empty set.
+    /// The result of an operator if at least one operand is the empty set.
     Operand combined_with_nothing(const OpenNode& node, const Operand& left, const Operand& right) {
         if (node.op == Operator::not_) {
             fail(node.at, "the complement of nothing is all space, which no region can hold");

@@ -9,9 +9,9 @@
 
 namespace csgrt {
 
-/// Reads the tree of a word; an empty word is the empty tree. A node is `l name`, `l name matrix`, or an operator and
-/// its operands, each in braces: two for u (union), n or + (intersection), - and ^ (xor), one for !. Throws Fault. It
-/// needs no stack, however deep the tree is. `object`: the combination's name, for the places of the nodes.
+/// Reads the tree in a word; an empty word is the empty tree. A node is `l name`, `l name matrix`, or an operator with
+/// operands in braces: u (union), n or + (intersection), - and ^ (xor) have two, ! has one. Throws Fault. The function
+/// is not recursive, so a deep tree needs no deep stack. `object`: the combination's name, for findings.
 Tree read_v5_tree(const TclWord& word, const TextSource& source, const std::string& object, TclStore& store);
 
 }  // namespace csgrt

@@ -98,7 +98,7 @@ struct SchemaOf {
     }
 };
 
-/// The default of a member in JSON; null: it has none.
+/// The default of a member in JSON. Null: the member has no default.
 template <std::size_t count, class Value>
 ordered_json default_of(const form::Words<count>& kind, const Value& value) {
     const std::size_t i = static_cast<std::size_t>(value) - kind.first;

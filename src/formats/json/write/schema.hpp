@@ -1,4 +1,4 @@
-// Schema of scene files, for editors: scenes/csgrt.schema.json, made of the same descriptions as the reader.
+// Schema of scene files, for editors: scenes/csgrt.schema.json. It is made from the same descriptions as the reader.
 #pragma once
 
 #include <string>

@@ -10,8 +10,8 @@
 
 namespace csgrt {
 
-/// Converts millimetres to a unit, and notes values that would not read back: a number that is not finite, or a length
-/// for which no double times the unit gives the same bits.
+/// Converts millimetres to a unit. Notes values that would not read back: numbers that are not finite, and lengths for
+/// which no double times the unit gives the same bits.
 class JsonUnit {
 public:
     explicit JsonUnit(double millimetres) : unit_(millimetres) {}

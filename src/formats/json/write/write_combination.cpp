@@ -12,8 +12,8 @@ namespace {
 
 using nlohmann::ordered_json;
 
-/// The depth of operators up to which trees are written nested, each operator two brackets; the reader allows
-/// Limits::file_nesting brackets in all. Deeper trees are written in postfix form, which does not nest.
+/// The greatest depth of trees that are written as nested operators. Each operator nests two brackets, and the reader
+/// allows Limits::file_nesting brackets. Deeper trees are written in postfix form, which does not nest.
 constexpr std::size_t deepest_nested = 100;
 
 ordered_json json_of_leaf(const TreeNode& leaf, JsonUnit& unit) {
@@ -35,7 +35,7 @@ ordered_json json_of_leaf(const TreeNode& leaf, JsonUnit& unit) {
     return out;
 }
 
-/// The number of operators above the deepest leaf; nothing if the nodes are not a tree.
+/// The number of operators above the deepest leaf. Nothing if the nodes are not a tree.
 std::optional<std::size_t> depth_of(const Tree& tree) {
     std::vector<std::size_t> waiting;
     for (const TreeNode& node : tree.nodes) {
@@ -93,8 +93,7 @@ ordered_json json_of(const Tree& tree, JsonUnit& unit, std::string& fault) {
     return *depth > deepest_nested ? json_of_postfix(tree, unit) : json_of_nested(tree, unit);
 }
 
-/// The JSON of a material. The shader is always written, so that the finish is there again when all other members have
-/// their defaults.
+/// The JSON of a material. The shader is always written: without any key, the reader would find no finish.
 ordered_json json_of_material(const std::optional<Vec3>& color, const std::optional<Finish>& finish, JsonUnit& unit) {
     ordered_json material = ordered_json::object();
     if (color) material["color"] = unit.vector(*color);

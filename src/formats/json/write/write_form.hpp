@@ -15,8 +15,8 @@
 
 namespace csgrt {
 
-// Values are made as objects or arrays at once: a value that becomes one by an access, as written[key] of a null does,
-// is left broken if memory runs out.
+// Values are constructed as objects or arrays: a null that becomes an object by written[key] would be left broken if
+// memory runs out.
 
 template <class S>
 nlohmann::ordered_json write_form(const S& s, JsonUnit& unit);
@@ -63,7 +63,7 @@ nlohmann::ordered_json write_value(form::Corners, const auto& vertices, JsonUnit
 }
 /// Writes a face. A face of one loop is this loop.
 nlohmann::ordered_json write_value(form::Loops, const std::vector<Nmg::Loop>& face, JsonUnit& unit);
-/// Writes curves. The first curve always says whether it is reversed, unless the sketch says it of no curve.
+/// Writes curves. If the sketch has flags for reversed curves, the first curve always has the key "reversed".
 nlohmann::ordered_json write_value(form::Curves, const Sketch& sketch, JsonUnit& unit);
 
 /// Whether two values are written alike.
@@ -76,7 +76,7 @@ bool same_value(const Value& a, const Value& b) {
     }
 }
 
-/// Writes one value if all faces have the same, as most have.
+/// Writes a single value if it is the same for all faces, as in most meshes.
 template <class Item, class Value>
 nlohmann::ordered_json write_per_face(const form::PerFace<Item>& kind, const std::vector<Value>& values,
                                       std::size_t faces, JsonUnit& unit) {
@@ -86,8 +86,8 @@ nlohmann::ordered_json write_per_face(const form::PerFace<Item>& kind, const std
     return write_value(form::List{kind.item}, values, unit);
 }
 
-/// Writes a string for each row of `width` cells. If marks are allowed, cells of 0 and `most` alone are a picture of
-/// '.' and '#'.
+/// Writes a string for each row of `width` cells. If marks are allowed and all cells are 0 or `most`, the rows consist
+/// of '.' and '#'.
 template <class Cell>
 nlohmann::ordered_json write_cells(form::Cells kind, const std::vector<Cell>& cells, std::size_t width) {
     const bool picture =
@@ -108,7 +108,7 @@ nlohmann::ordered_json write_cells(form::Cells kind, const std::vector<Cell>& ce
     return rows;
 }
 
-/// Writes the placement as "matrix", unless it is the default.
+/// Writes the placement as "matrix", except if it is the default.
 void write_placement(nlohmann::ordered_json& out, const form::Placement& kind, const Matrix& m, JsonUnit& unit);
 /// Writes the angle as "angle" in degrees, or as "radians".
 void write_turn(nlohmann::ordered_json& out, form::Turn, double angle, JsonUnit& unit);

@@ -1,4 +1,4 @@
-// Objects as JSON: one solid, one combination.
+// Conversion of solids, combinations and looks to JSON.
 #pragma once
 
 #include <string>
@@ -11,10 +11,10 @@ namespace csgrt {
 
 class JsonUnit;
 
-/// {"type": ...}: a simple type if it reads back to the same bits.
+/// {"type": ...}, with a simple type if this reads back to the same bits.
 nlohmann::ordered_json json_of(const Shape& shape, JsonUnit& unit);
 
-/// {"tree": ...} with the attributes that differ from their defaults. Sets `fault` if the tree is not a tree.
+/// {"tree": ...}, with the attributes that differ from their defaults. Sets `fault` if the nodes do not form a tree.
 nlohmann::ordered_json json_of(const Combination& combination, JsonUnit& unit, std::string& fault);
 
 /// {"path": ..., "material": ..., "state": ...}

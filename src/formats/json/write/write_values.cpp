@@ -46,7 +46,7 @@ void write_turn(ordered_json& out, form::Turn, double angle, JsonUnit& unit) {
 
 namespace {
 
-/// Writes the shape in a form if it fits; the first of its forms that fits is used.
+/// Writes the shape in a simple form. False if the form does not fit.
 template <class S, class Simple>
 bool write_as(const S& s, JsonUnit& unit, ordered_json& out) {
     if constexpr (std::is_same_v<S, Simple>) {

@@ -19,7 +19,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-/// An entry of a section that JSON can hold.
+/// An entry of a section.
 struct Entry {
     const std::string* name;
     ordered_json value;
@@ -111,7 +111,8 @@ private:
         return entries;
     }
 
-    /// The names of all objects, if solids and combinations alternate; else nothing: the sections give the order.
+    /// The names of all objects, if solids and combinations are mixed. Nothing otherwise, because then the sections
+    /// give the order.
     ordered_json json_of_order() const {
         const auto is_solid = [](const Object& object) { return std::holds_alternative<Solid>(object); };
         ordered_json names = ordered_json::array();
