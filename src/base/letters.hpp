@@ -1,4 +1,4 @@
-// Letters: small and capital, whatever the host's locale is.
+// Letters: conversions between small and capital letters that do not depend on the host's locale.
 #pragma once
 
 #include <string>

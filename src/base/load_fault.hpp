@@ -7,7 +7,7 @@
 
 namespace csgrt {
 
-/// Whether memory ran out.
+/// Whether a library was not loaded for lack of memory.
 inline bool lacked_memory(std::string_view why) {
     constexpr std::array<std::string_view, 4> words = {"annot allocate", "failed to map segment",
                                                        "cannot create shared object descriptor", "out of memory"};

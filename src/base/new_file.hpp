@@ -110,7 +110,7 @@ public:
             else
                 temporary_ = std::move(temporary);
         }
-        constexpr int most = 8;  // writers of the same target at once
+        constexpr int most = 8;  // at most so many processes write one target at a time
         for (; number < most; ++number) remove_if_left(beside(target.path, number));
         // The new file gets the old file's permissions, as if an editor had written it.
         if (replaces) fs::permissions(temporary_, old.permissions() & fs::perms::all, error);
@@ -136,7 +136,8 @@ public:
 
     /// Writes all bytes to an open file with the name `name`.
     static void write_to(int file, std::string_view bytes, const std::string& name, void (*on_signal)() = nullptr) {
-        constexpr std::size_t most = std::size_t{1} << 30;  // in one call: Windows counts bytes in an int
+        constexpr std::size_t most = std::size_t{1} << 30;  // the bytes of one call, because Windows counts them in an
+                                                            // int
         while (!bytes.empty()) {
             const auto written = ::write(file, bytes.data(), static_cast<unsigned>(std::min(bytes.size(), most)));
             if (written >= 0) {
@@ -188,7 +189,8 @@ private:
         struct stat opened, named;
         const bool is_left = flock(file, LOCK_EX | LOCK_NB) == 0 && fstat(file, &opened) == 0 &&
                              S_ISREG(opened.st_mode) && lstat(temporary.c_str(), &named) == 0 &&
-                             opened.st_ino == named.st_ino && opened.st_dev == named.st_dev;  // still has the name
+                             opened.st_ino == named.st_ino && opened.st_dev == named.st_dev;  // the opened file still
+                                                                                              // has this name
         if (is_left) unlink(temporary.c_str());
         close(file);
     }

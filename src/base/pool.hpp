@@ -25,7 +25,7 @@ public:
         if (found && found->process_ == process_number()) return *found;
         auto* const fresh = new Pool;
         if (last.compare_exchange_strong(found, fresh)) return *fresh;
-        delete fresh;  // another thread was faster
+        delete fresh;  // another thread has made the pool meanwhile
         return *found;
     }
 

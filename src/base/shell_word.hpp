@@ -1,4 +1,4 @@
-// Shell words: for commands that a user can copy.
+// Shell words: quote texts in commands that a user can copy.
 #pragma once
 
 #include <string>

@@ -8,7 +8,7 @@
 
 namespace csgrt {
 
-/// Called with the part of the work that is done, 0 to 1. Returns whether to go on.
+/// A function that is called with the done fraction of the work, 0 to 1, and returns whether to go on.
 using Progress = std::function<bool(double)>;
 
 /// Tells a call's caller how much of the work is done, and the workers when to stop. Any thread may use it.

@@ -40,7 +40,7 @@ void put_text(std::string& json, std::string_view text) {
     json += '"';
 }
 
-/// Numbers with all their bits.
+/// Appends numbers with as many digits as keep all their bits.
 void put_numbers(std::string& json, std::span<const double> numbers) {
     for (const double& number : numbers) {
         char digits[32];

@@ -182,7 +182,7 @@ void define(Options& options, VerifyArguments& arguments) {
         auto number = parse_count(text);
         if (auto value = parse_number(text);
             !number && value && *value >= 0 && *value <= most_sampled && *value == std::floor(*value))
-            number = static_cast<std::uint64_t>(*value);  // 1e6
+            number = static_cast<std::uint64_t>(*value);  // for example 1e6
         if (!number) return text.empty() ? std::nullopt : std::optional(text);
         arguments.count = static_cast<std::size_t>(*number);
         return *number >= 1 && *number <= most_sampled ? std::optional(std::string()) : std::nullopt;

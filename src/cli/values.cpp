@@ -20,7 +20,7 @@ std::string_view without_blanks(std::string_view text) {
 
 constexpr std::pair<std::string_view, Axis> axis_names[] = {{"x", Axis::x}, {"y", Axis::y}, {"z", Axis::z}};
 
-/// The parts before the last colon and behind it.
+/// The parts before and after the last colon.
 std::optional<std::pair<std::string_view, std::string_view>> parts_of(std::string_view text) {
     const std::size_t colon = text.rfind(':');
     if (colon == text.npos) return std::nullopt;

@@ -19,7 +19,7 @@ inline constexpr int max_side =
 /// Reads a finite number, the whole of `text`; a leading plus is allowed. See decimal.hpp.
 std::optional<double> parse_number(std::string_view text);
 
-/// The reason why `text` is not such a number.
+/// The reason why parse_number() refuses `text`.
 std::string number_fault(std::string_view text);
 
 /// Reads "X,Y,Z": three finite numbers.

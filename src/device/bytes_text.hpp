@@ -1,4 +1,4 @@
-// Amounts of memory, as text.
+// Bytes text: amounts of memory as text.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Choice of devices.
+// Choice: finds the devices that a setting names.
 #pragma once
 
 #include <string>

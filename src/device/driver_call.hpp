@@ -1,4 +1,4 @@
-// Driver calls, and the end of the process.
+// Driver calls: keeps the process from ending while a thread is in a driver.
 #pragma once
 
 #include "base/process.hpp"

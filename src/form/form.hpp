@@ -24,7 +24,7 @@ struct Lengths {};  ///< a point or a displacement: a vector in the file's unit
 struct Vector {};   ///< a vector that is not scaled by the file's unit
 struct Axis {};     ///< a vector that is not scaled, of any length but 0
 struct Color {};
-struct Count {};  ///< from 0 to 2^32 - 1
+struct Count {};  ///< a whole number from 0 to 2^32 - 1
 struct Whole {
     int low, high;
 };
@@ -60,7 +60,7 @@ struct PerFace {
 };
 template <class Item>
 PerFace(Item) -> PerFace<Item>;
-struct Loops {};  ///< of a face: one loop of indices, or a list of loops
+struct Loops {};  ///< a face: one loop of indices, or a list of loops
 struct Corners {
     std::size_t count;
 };

@@ -47,7 +47,7 @@ struct Fault {
     std::string suggestion;
 };
 
-/// The action for a tolerated fault of an attribute or a setting.
+/// The end of a warning about a faulty attribute or setting.
 inline constexpr const char* passed_over = "passed over";
 
 /// The faults of one file, which are reported together.
@@ -61,8 +61,8 @@ public:
     void add(Fault fault, std::string object) {
         add(fault.offset, std::move(object), std::move(fault.message), std::move(fault.suggestion));
     }
-    /// Tolerates a fault after which the rest of the file keeps its meaning: adds a warning that ends in `done`, or a
-    /// finding if the scene is strict.
+    /// Tolerates a fault that does not change the meaning of the rest of the file: adds a warning that ends in `done`,
+    /// or in a strict scene a finding.
     void tolerate(Fault fault, const std::string& object, const char* done);
     bool is_lenient() const noexcept { return tolerated_ != nullptr; }
     Place place(std::size_t offset, const std::string& object) const { return source_.place(offset, object); }

@@ -1,4 +1,4 @@
-// Functions of image.hpp, for a program that loads csgrt::image only when it needs it.
+// Functions of image.hpp, for programs that load csgrt::image only when they need it.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// Byte order mark: editors on Windows put it before a text in UTF-8. It is not a part of the text.
+// Byte order mark: three bytes that editors on Windows put before a text in UTF-8. They are not a part of the text.
 #pragma once
 
 #include <string_view>

@@ -16,18 +16,18 @@ namespace {
     throw Error(Status::usage, {Diagnostic{.message = what, .suggestion = suggestion}});
 }
 
-/// The objects along a path. `least`: the number of parts that it must have.
+/// The objects along a path. `least`: the least number of parts that the path must have.
 ObjectPath follow(const Scene& scene, const Names& names, const std::string& path, std::size_t least = 1) {
     ObjectPath found = find_path(scene, names, path);
     if (found.steps.empty()) refuse(found.fault, found.suggestion);
-    // An object whose name is the whole path is used by no combination.
+    // The path is one name, so it does not tell the combination whose member the object is.
     if (found.steps.size() < least) refuse("'" + path + "' is no leg of a combination: give the path that leads to it");
     return found;
 }
 
 Tree& tree_of(Scene& scene, std::uint32_t object) { return std::get<Combination>(scene.objects[object]).tree; }
 
-/// Copies objects that an instance shares with others.
+/// Copies combinations that an instance shares with other instances, so that an edit changes this instance only.
 class Unsharer {
 public:
     Unsharer(Scene& scene, const Names& names, const std::vector<std::string>& rendered)
@@ -40,7 +40,7 @@ public:
                 is_rendered_[path.object()] = true;
     }
 
-    /// Makes the combinations of a path unshared, except the last step's object. Changes the steps.
+    /// Makes the path's combinations, except the last step's object, belong to this instance only. Changes the steps.
     void unshare(std::vector<ObjectPath::Step>& steps) {
         if (users_[steps.front().object] > 0) give_others_a_copy(steps.front().object);
         for (std::size_t i = 1; i + 1 < steps.size(); ++i) {
@@ -55,7 +55,7 @@ public:
     }
 
 private:
-    /// Keeps the object at the head of paths; all members that name it get a copy instead.
+    /// Makes all members that name the object name a copy instead. The object itself stays at the begin of paths.
     void give_others_a_copy(std::uint32_t object) {
         const std::uint32_t copy = copied(object);
         for (std::uint32_t user = 0; user < scene_.objects.size(); ++user) {
@@ -67,7 +67,7 @@ private:
         users_[copy] = std::exchange(users_[object], 0);
     }
 
-    /// The object that an object is a copy of, or itself.
+    /// The object from which `object` was copied, or `object` itself.
     std::uint32_t original(std::uint32_t object) const {
         const std::size_t count = scene_.objects.size() - origin_.size();
         return object < count ? object : origin_[object - count];
@@ -101,17 +101,17 @@ private:
     }
 
     Scene& scene_;
-    const Names& names_;                ///< of the scene without copies
-    std::vector<std::uint32_t> users_;  ///< members that name each object
+    const Names& names_;                ///< names of the scene before copies were made
+    std::vector<std::uint32_t> users_;  ///< for each object: the number of members that name it
     std::vector<bool> is_rendered_;
-    std::vector<std::uint32_t> origin_;  ///< of the copies, which are the last objects
+    std::vector<std::uint32_t> origin_;  ///< for each copy, which are the last objects: its original
     std::unordered_set<std::string> taken_;
 };
 
 /// Removes a leaf from the tree.
 void remove_leaf(Tree& tree, std::uint32_t leaf) {
     struct Operand {
-        std::size_t first;  ///< number of the node in the new tree
+        std::size_t first;  ///< index of the node in the new tree
         bool is_gone;
     };
     std::vector<TreeNode> kept;
@@ -154,7 +154,7 @@ void remove_member(Scene& scene, const std::string& path) {
     const std::vector<ObjectPath::Step> steps = follow(scene, names, path, 2).steps;
     const std::uint32_t parent = steps[steps.size() - 2].object, leaf = steps.back().node;
     Tree& tree = tree_of(scene, parent);
-    for (std::uint32_t i = 0; i < tree.nodes.size(); ++i)  // numbered names stay
+    for (std::uint32_t i = 0; i < tree.nodes.size(); ++i)  // numbered names of other leaves must not change
         if (tree.nodes[i].op == Operator::leaf && names.member_name(parent, i) != tree.nodes[i].object)
             tree.nodes[i].name = names.member_name(parent, i);
     remove_leaf(tree, leaf);

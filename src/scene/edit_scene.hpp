@@ -1,4 +1,4 @@
-// Edits of a scene's trees that keep the paths of all other instances.
+// Edits of a scene's trees, which leave the paths of all other instances unchanged.
 #pragma once
 
 #include <string>
@@ -8,16 +8,17 @@
 
 namespace csgrt {
 
-// All functions throw Error (usage), and change nothing, if a path leads nowhere or to an object of another kind.
+// All functions throw Error (usage), and change nothing, if a path leads to no object or to an object of the wrong
+// kind.
 
-/// Sets the matrix of the last member of a path. `alone`: for this instance only; combinations on the way that have
-/// other instances, or are among the `rendered` objects, are copied.
+/// Sets the matrix of the last member of a path. `alone`: for this instance only. Then combinations on the path that
+/// have other instances, or are among the `rendered` objects, are copied.
 void set_member_matrix(Scene& scene, const std::vector<std::string>& rendered, const std::string& path,
                        const Matrix& matrix, bool alone);
-/// Removes the last member of a path from its tree. The other operands of the operator above it stay; operands that a
-/// difference removes from it go, too.
+/// Removes the last member of a path from its tree. The other operands of the operator above it stay. But if a
+/// difference removes operands from it, these are removed, too.
 void remove_member(Scene& scene, const std::string& path);
-/// Makes the tree of the combination at the end of a path `tree op member`.
+/// Adds a member to the combination at the end of a path: its tree becomes tree `op` member.
 void add_member(Scene& scene, const std::string& path, Operator op, const std::string& object, const Matrix& matrix);
 /// Gives the solid at the end of a path another shape.
 void replace_shape(Scene& scene, const std::string& path, Shape shape);

@@ -6,7 +6,7 @@ namespace csgrt {
 
 namespace {
 
-/// Appends every line of `text` on a line of its own, after `indent`.
+/// Appends a line break, `indent` and the line, for every line of `text`.
 void append_indented(std::string& out, const std::string& text, const char* indent) {
     std::size_t begin = 0;
     while (begin <= text.size()) {
@@ -19,7 +19,7 @@ void append_indented(std::string& out, const std::string& text, const char* inde
     }
 }
 
-/// The text "file:line:column", "file: byte offset", or as much of it as is known.
+/// The text "file:line:column" or "file: byte offset", without the parts that are not known.
 std::string position(const Place& place) {
     std::string out = place.file;
     if (place.line > 0) {

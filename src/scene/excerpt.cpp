@@ -8,7 +8,7 @@ namespace csgrt {
 
 namespace {
 
-/// Bytes of a line that are shown, and how many of them stand before a column that is farther to the right.
+/// The number of a line's bytes that are shown. In a longer line, at most `shown_before` of them are before the column.
 constexpr std::size_t shown = 110, shown_before = 70;
 
 bool continues_character(char c) { return (static_cast<unsigned char>(c) & 0xC0) == 0x80; }

@@ -9,15 +9,15 @@ namespace csgrt {
 
 namespace {
 
-/// The cost of each instance of a solid, in balls of 6 microseconds and 1.6 kB. From measurements.
+/// The cost of one instance of a solid, measured in balls: a ball takes 6 microseconds and 1.6 kB.
 struct Cost {
-    std::uint64_t parts = 0;  ///< grows with the file that has the parts
-    std::uint64_t more = 0;   ///< grows faster
+    std::uint64_t parts = 0;  ///< the part that grows with the size of the file
+    std::uint64_t more = 0;   ///< the part that grows faster than the file
 };
 
 /// The cost of a solid by its type, as a visitor of Shape.
 struct CostOf {
-    static constexpr std::uint64_t many = 64;  ///< triangles or cells: an instance has a box around them
+    static constexpr std::uint64_t many = 64;  ///< number of triangles or cells that cost as much as a ball
 
     Cost operator()(const Hrt&) const { return {150}; }
     Cost operator()(const Arbn& s) const { return {2 * s.planes.size(), s.planes.size() * s.planes.size() / 1300}; }
@@ -34,7 +34,7 @@ struct CostOf {
     }
     Cost operator()(const Nmg& s) const { return {s.vertices.size() / many}; }
     Cost operator()(const Ebm& s) const { return {8 + s.cells.size() / many}; }
-    Cost operator()(const Vol& s) const {  // by its cells' sides, of which rows show one in three
+    Cost operator()(const Vol& s) const {  // cost by the cells' sides; changes along rows show a third of all sides
         const auto is_solid = [&](std::uint8_t cell) { return cell >= s.low && cell <= s.high; };
         std::uint64_t changes = 0;
         for (std::size_t i = 1; i < s.cells.size(); ++i) changes += is_solid(s.cells[i]) != is_solid(s.cells[i - 1]);
@@ -47,7 +47,7 @@ struct CostOf {
     }
 };
 
-/// The source that the parts were copied from, if they may have been copied for other solids, too.
+/// The sketch's name or the cells of a solid, which tell whether several solids have copies of one source.
 std::string_view source_of(const Shape& shape) {
     const auto bytes_of = [](const auto& cells) {
         return std::string_view(reinterpret_cast<const char*>(cells.data()), cells.size() * sizeof cells[0]);
@@ -73,7 +73,7 @@ InstanceLimit::InstanceLimit(const Scene& scene, std::uint64_t max_instances)
       allowed_(max_instances > 0 ? std::min(max_instances, Limits::most_instances) : Limits::instances),
       counts_own_(max_instances == 0) {}
 
-// Each object once is no expansion: its cost grows with the file.
+// A scene's own solids, each counted once, are always allowed, because their cost grows only with the file.
 bool InstanceLimit::allows(double count) {
     if (counts_own_ && count > static_cast<double>(allowed_)) {
         counts_own_ = false;

@@ -1,5 +1,4 @@
-// Instances: the number of solids that a scene expands to, so that a scene that is too large is refused before memory
-// is spent.
+// Instances: counts the solids to which a scene expands, so that too large a scene is refused before it takes memory.
 #pragma once
 
 #include <cstdint>
@@ -9,22 +8,23 @@
 
 namespace csgrt {
 
-/// The number of instances that each transform of a solid counts for: 1, or more if it has parts or a name that each
-/// copies.
+/// The number of instances that one instance of a solid counts for: 1, or more if the solid has many parts or a long
+/// name, which each instance copies.
 std::uint64_t instances_of(const Solid& solid);
 
-/// The limit on a scene's instances; `max_instances` is that of Settings. The scene must outlive it.
+/// The limit of a scene's instances. `max_instances`: see Settings. The scene must outlive the object.
 class InstanceLimit {
 public:
     InstanceLimit(const Scene& scene, std::uint64_t max_instances);
     bool allows(double count);
-    /// The finding "'all' expands to N instances; at most M are allowed", and what to do.
+    /// The finding "'all' expands to N instances; at most M are allowed", with a suggestion.
     Diagnostic fault(const Place& place, const std::string& what, double count) const;
 
 private:
     const Scene& scene_;
     std::uint64_t allowed_;
-    bool counts_own_;  ///< only when more are needed: twice the scene's own solids are allowed, if these are more
+    bool counts_own_;  ///< true: the scene's own solids are not counted yet; if necessary, twice their number is
+                       ///< allowed
 };
 
 }  // namespace csgrt

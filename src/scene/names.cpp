@@ -17,7 +17,7 @@ namespace csgrt {
 
 namespace {
 
-constexpr std::size_t chunk = 8192;  // objects that a thread takes at once
+constexpr std::size_t chunk = 8192;  // number of objects that a thread takes at a time
 
 Names::Kind kind_of(const Object& object) {
     using Kind = Names::Kind;
@@ -44,7 +44,8 @@ std::uint32_t Names::find(std::string_view name, std::uint32_t hash) const {
     }
 }
 
-/// Finds the members' names in a tree; most trees need none. `sorted`: memory that is used again.
+/// Finds members whose names in paths differ from their objects' names; most trees have none. `sorted`: memory that
+/// calls reuse.
 void Names::name_members(std::uint32_t object, const std::vector<TreeNode>& nodes, std::vector<std::uint32_t>& sorted,
                          MemberNames& found) const {
     const std::uint32_t* const own = children_.data() + first_child_[object];
@@ -121,7 +122,7 @@ Names::Names(const Scene& scene) : scene_(scene), first_child_(scene.objects.siz
         for (std::size_t i = first; i < last; ++i) {
             if (kinds_[i] >= Kind::solid) continue;
             const std::vector<TreeNode>& nodes = std::get<Combination>(scene.objects[i]).tree.nodes;
-            // First all hashes are computed: meanwhile the memory of their names is prefetched.
+            // All hashes are computed first, while the table's memory is prefetched.
             std::uint32_t* const own = children_.data() + first_child_[i];
             for (std::size_t k = 0; k < nodes.size(); ++k) {
                 if (nodes[k].op != Operator::leaf) continue;

@@ -11,9 +11,10 @@ namespace {
 
 /// The longest names that are compared: the time of a comparison grows with the product of the lengths.
 constexpr std::size_t longest = 64;
-constexpr std::size_t most_steps = 2'000'000;  ///< comparisons of letters
+constexpr std::size_t most_steps = 2'000'000;  ///< number of compared letters
 
-/// The number of letters that must be added, removed, replaced or swapped with a neighbour, upper and lower case alike.
+/// The number of letters to add, remove, replace or swap with a neighbour, to get one word from the other. Upper and
+/// lower case are the same.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
     std::vector<std::size_t> before_last(b.size() + 1), last(b.size() + 1), row(b.size() + 1);
     for (std::size_t j = 0; j <= b.size(); ++j) last[j] = j;
@@ -32,7 +33,7 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
     return last[b.size()];
 }
 
-/// Is one name the start of the other, as "tor" of "torus" or "intersect" of "intersection"?
+/// Is `start` the beginning of `whole`, for example "tor" of "torus"?
 bool is_start(std::string_view start, std::string_view whole) { return start.size() >= 3 && whole.starts_with(start); }
 
 }  // namespace
@@ -46,10 +47,10 @@ std::string did_you_mean(std::string_view wrong, const std::vector<std::string_v
         if (is_start(candidate, wrong) || is_start(wrong, candidate)) same_start = candidate;
         const std::size_t difference =
             std::max(candidate.size(), wrong.size()) - std::min(candidate.size(), wrong.size());
-        if (difference >= best_distance) continue;  // the distance is at least the difference
+        if (difference >= best_distance) continue;  // the distance is at least the difference of the lengths
         if ((steps += wrong.size() * candidate.size()) > most_steps) break;
         const std::size_t distance = edit_distance(wrong, candidate);
-        // A name of which every letter is replaced is another name, not a misspelt one.
+        // If every letter would be replaced, the name is not a misspelt one.
         if (distance < best_distance && distance < std::max(wrong.size(), candidate.size())) {
             best = candidate;
             best_distance = distance;

@@ -1,4 +1,4 @@
-// Nearest name: the known name that a wrong name was probably meant to be.
+// Nearest name: the known name that a misspelt name probably means.
 #pragma once
 
 #include <string>
@@ -7,8 +7,8 @@
 
 namespace csgrt {
 
-/// "did you mean 'radius'?", or nothing if no known name is close. Of very many known names the first are compared,
-/// some 10^4, so that it takes milliseconds.
+/// "did you mean 'radius'?", or an empty text if no known name is close. At most about 10^4 known names are compared,
+/// so that the search takes milliseconds.
 std::string did_you_mean(std::string_view wrong, const std::vector<std::string_view>& known);
 
 }  // namespace csgrt

@@ -16,7 +16,7 @@ namespace {
 std::string did_you_mean_one_of(std::string_view wrong, std::vector<std::string_view> names) {
     constexpr std::size_t most = 100'000;
     names.resize(std::min(names.size(), most));
-    std::sort(names.begin(), names.end());  // the answer does not depend on the order of the file
+    std::sort(names.begin(), names.end());  // so that the answer does not depend on the file's order
     names.erase(std::unique(names.begin(), names.end()), names.end());
     return did_you_mean(wrong, names);
 }
@@ -65,7 +65,8 @@ private:
         path_.suggestion = std::move(suggestion);
     }
 
-    /// The longest beginning of the rest, up to a '/', for which `find` finds an object: names may hold a '/', too.
+    /// Finds the longest beginning of the rest that ends before a '/' and for which `find` finds an object. A name may
+    /// itself hold a '/'.
     template <class Find>
     auto longest(const Find& find) -> decltype(find(std::string_view{})) {
         for (std::size_t end = rest_.size();; end = rest_.rfind('/', end - 1)) {

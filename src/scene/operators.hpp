@@ -1,4 +1,4 @@
-// The operators of a tree: how they are called, and how many operands they take.
+// The operators of trees: their names, and the numbers of their operands.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@
 
 namespace csgrt {
 
-/// Empty for a value that is no operator.
+/// An operator's name. Empty if `op` is not a valid value.
 constexpr std::string_view operator_name(Operator op) { return name_of(operator_names, op); }
 
 constexpr bool takes(Operator op, std::uint64_t arity) {

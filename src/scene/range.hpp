@@ -1,4 +1,4 @@
-// Range: numbers so large or small that results would overflow or vanish, and the messages that refuse them.
+// Range: limits of numbers, beyond which results would overflow or underflow, and the messages about such numbers.
 #pragma once
 
 #include <algorithm>
@@ -15,13 +15,14 @@ inline double largest(const Vec3& v) { return std::max({std::abs(v.x), std::abs(
 /// The shortest decimal that is read as the same double.
 std::string number_text(double x);
 
-/// The decimal of six digits.
+/// The number with six digits.
 std::string rounded_text(double x);
 
 /// "the largest size and distance from the origin is 1e+15 mm"
 std::string length_limit();
 
-/// The reason why a ray cannot be traced; empty: it can. `in_direction`: which of its two vectors is at fault.
+/// The reason why a ray cannot be traced, or an empty text. `in_direction`: true if the direction is at fault, false if
+/// the origin is.
 std::string ray_fault(const Vec3& origin, const Vec3& direction, bool& in_direction);
 
 }  // namespace csgrt

@@ -28,7 +28,7 @@ Tree tree(std::string object, const Matrix& matrix) {
     return {{{.op = Operator::leaf, .object = std::move(object), .matrix = matrix}}};
 }
 
-/// One operator over both trees; if one is empty, the rest.
+/// A tree with one operator over both trees. If a tree is empty, the other one.
 static Tree joined(Tree a, Operator op, Tree b) {
     if (b.nodes.empty()) return a;
     if (a.nodes.empty()) return op == Operator::union_ || op == Operator::xor_ ? std::move(b) : std::move(a);
@@ -53,7 +53,7 @@ const Place& place_of(const Object& object) {
 }
 
 std::vector<std::string> top_objects(const Scene& scene) {
-    const FloatingPoint own;  // hash tables compute, too
+    const FloatingPoint own;  // hash tables use floating-point numbers, too
     return scene.top.empty() ? Names(scene).top_objects() : scene.top;
 }
 

@@ -20,20 +20,20 @@ inline Vec3 cross(const Vec3& a, const Vec3& b) {
 inline double length(const Vec3& a) { return std::hypot(a.x, a.y, a.z); }
 inline bool is_finite(const Vec3& a) { return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z); }
 
-/// Do three vectors surely make more than 1e-9 of the volume of a right-angled box? False for some that do, too. Takes
-/// no roots.
+/// A quick test without roots: do three vectors surely span more than 1e-9 of the volume of a right-angled box with
+/// these edges? It may be false though they do.
 inline bool plainly_independent(const Vec3& a, const Vec3& b, const Vec3& c) {
     const double volume = dot(a, cross(b, c)), squares = dot(a, a) * dot(b, b) * dot(c, c);
     return squares > 1e-280 && volume * volume > 1e-18 * squares;
 }
 
-/// `a` scaled to length 1; `a` itself if its length is 0. hypot neither overflows nor underflows on the way.
+/// `a` scaled to length 1; `a` itself if its length is 0. hypot does not overflow or underflow in between.
 inline Vec3 unit(const Vec3& a) {
     const double l = length(a);
     return l == 0 ? a : Vec3{a.x / l, a.y / l, a.z / l};
 }
 
-/// The matrix that applies `inner`, then `outer`: each element summed from left to right, as BRL-CAD does it.
+/// The matrix that applies `inner`, then `outer`. Each element is summed from left to right, as in BRL-CAD.
 inline Matrix compose(const Matrix& outer, const Matrix& inner) {
     Matrix m{};
     for (std::size_t row = 0; row < 4; ++row) {
@@ -44,12 +44,12 @@ inline Matrix compose(const Matrix& outer, const Matrix& inner) {
     return m;
 }
 
-/// The difference from length 1 below which a vector is taken for a unit vector, unchanged.
+/// The difference from length 1 within which a vector counts as a unit vector and keeps its bits.
 inline constexpr double unit_slack = 1e-9;
 inline bool is_unit(const Vec3& a) { return std::abs(length(a) - 1) <= unit_slack; }
 
-/// The part of a right-angled box's volume below which three vectors lie in a plane, as far as double precision can
-/// tell after their matrix has been inverted.
+/// The fraction of a right-angled box's volume below which three vectors count as lying in a plane: the inverse of
+/// their matrix has no correct digits in double precision.
 inline constexpr double least_volume = 1e-10;
 
 inline bool dependent(const Vec3& a, const Vec3& b, const Vec3& c) {

@@ -1,4 +1,4 @@
-// Walk: from an object down through combinations, depth first, with a stack of its own.
+// Walk: visits the combinations below an object, depth first, with its own stack instead of recursion.
 #pragma once
 
 #include <cstdint>
@@ -11,23 +11,23 @@
 
 namespace csgrt {
 
-/// A walk that keeps a `Level` of each combination that it is in.
+/// A walk that keeps a `Level` for each combination on its current path.
 template <class Level>
 class Walk {
 public:
-    /// A combination on the way.
+    /// A combination on the current path.
     struct Open {
         std::uint32_t object;
-        std::uint32_t next;  ///< node of its tree
+        std::uint32_t next;  ///< the next node of its tree
         Level level;
     };
 
     /// Walks below a combination. The visitor has
     ///     std::optional<Level> follow(const Open& parent, std::uint32_t node, std::uint32_t child)
     ///                                a leaf; `child` may be Names::none. No level: the walk does not go below it.
-    ///     void operate(const Open& parent, std::uint32_t node)   an operator, behind its operands
+    ///     void operate(const Open& parent, std::uint32_t node)   an operator, after its operands
     ///     void nothing()             a leaf that is left out, or a combination without a tree
-    ///     void leave(Open&& done)    behind the last node
+    ///     void leave(Open&& done)    after the last node
     template <class Visitor>
     void below(const Names& names, std::uint32_t object, Level level, Visitor& visitor) {
         open_.push_back({object, 0, std::move(level)});
@@ -52,7 +52,7 @@ public:
         }
     }
 
-    /// The combinations that the walk is in, from the top.
+    /// The combinations on the current path, from the top.
     const std::vector<Open>& open() const { return open_; }
 
 private:

@@ -18,8 +18,8 @@ double cosine(Vec3 direction, Vec3 normal);
 struct Blur {
     Vec3 direction;
     double tolerance = 0;  ///< millimetres, as are the other members
-    double shift = 0;      ///< see verify.hpp
-    double size = 0;       ///< of the model
+    double shift = 0;      ///< see csgrt/verify.hpp
+    double size = 0;       ///< the diagonal of the model's box
 
     /// The distance in millimetres that a boundary may move along the ray when the ray moves by `shift`. Where the ray
     /// grazes the surface, this is at most the chord of a line `shift` below the surface of a ball with the diameter

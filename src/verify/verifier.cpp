@@ -53,19 +53,19 @@ struct Judged {
     RegionDifference difference;               ///< for a tie: the change that made it one
 };
 
-// The distance of two numbers: 0 if both are equal, infinite ones too.
+// The distance of two numbers. 0 if the numbers are equal, also if both are infinite.
 double apart(double a, double b) { return a == b ? 0 : std::abs(a - b); }
 
 }  // namespace
 
-/// Any unit vector across `d`.
+/// A unit vector perpendicular to `d`.
 Vec3 across(Vec3 d) {
     const double x = std::abs(d.x), y = std::abs(d.y), z = std::abs(d.z);
     const Vec3 n = x <= y && x <= z ? Vec3{0, -d.z, d.y} : y <= z ? Vec3{d.z, 0, -d.x} : Vec3{-d.y, d.x, 0};
     return 1 / length(n) * n;
 }
 
-/// Rays beside a ray, all around it.
+/// Parallel rays on a circle around a ray.
 std::vector<Ray> neighbours_of(const Ray& ray, double distance, int count) {
     const Vec3 d = 1 / length(ray.direction) * ray.direction, u = across(d);
     const Vec3 v{d.y * u.z - d.z * u.y, d.z * u.x - d.x * u.z, d.x * u.y - d.y * u.x};
@@ -208,7 +208,7 @@ Verifier::Verifier(const Scene& scene, const std::vector<std::string>& objects, 
     Impl& impl = *impl_;
     impl.settings = settings;
     Settings own = settings;
-    own.wait_for_device = true;  // the device is verified
+    own.wait_for_device = true;  // because the device itself is verified
     own.progress = [&impl](double fraction) { return impl.report(fraction); };
     if (!settings.reference) prepare_devices(own);
     const Model model(scene, objects, own);

@@ -20,7 +20,7 @@ std::uint32_t pixel(double red, double green, double blue) {
 
 std::uint32_t gray(double value) { return pixel(value, value, value); }
 
-/// A bright colour: hues 0 and 1 are red, 1/3 green, 2/3 blue.
+/// A bright colour by its hue: 0 and 1 are red, 1/3 is green, 2/3 is blue.
 std::uint32_t of_hue(double hue, double value = 1) {
     const auto part = [&](double shift) {
         const double place = 6 * (hue + shift - std::floor(hue + shift));
@@ -29,7 +29,7 @@ std::uint32_t of_hue(double hue, double value = 1) {
     return pixel(part(0), part(-1.0 / 3), part(-2.0 / 3));
 }
 
-/// The colour of a region. Neighbours in the list of regions get colours that are far apart.
+/// The colour of a region. Regions with neighbouring numbers get very different colours.
 std::uint32_t of_region(std::uint32_t number) {
     if (number == 0) return opaque;
     constexpr double golden = 0.6180339887498949;
@@ -56,7 +56,7 @@ void paint_normals(const Image& image, std::span<std::uint32_t> pixels) {
     }
 }
 
-/// Paints overlaps red, whatever lies before them, and everything else in grey.
+/// Paints overlaps red, even behind other regions, and everything else grey.
 void paint_overlaps(const Image& image, std::span<std::uint32_t> pixels) {
     const auto overlaps = image.channel("overlap"), partitions = image.channel("partitions");
     for (std::size_t i = 0; i < pixels.size(); ++i)
@@ -71,7 +71,7 @@ void paint_segments(std::span<const float> counts, std::span<std::uint32_t> pixe
         pixels[i] = counts[i] > 0 ? of_hue(2.0 / 3 * (1 - counts[i] / most)) : opaque;
 }
 
-/// Draws a light line where another ghost begins.
+/// Draws a light line between pixels of different ghosts.
 void outline_ghosts(const Image& image, std::span<std::uint32_t> pixels) {
     const auto ghosts = image.ids("ghost");
     const auto width = static_cast<std::size_t>(image.width);

@@ -1,4 +1,4 @@
-// False colours: pictures of values other than colours, and the outlines of ghosts.
+// False colours: paints values other than colours, and outlines of ghosts.
 #pragma once
 
 #include <cstdint>
@@ -13,8 +13,7 @@ namespace csgrt {
 /// The channels (View::channels) that paint() needs.
 std::uint32_t channels_for(Show show, bool has_ghosts);
 
-/// Paints pixels for a display: R G B A, a byte each from the lowest byte on. `pixels` has one value for each of the
-/// picture's.
+/// Paints pixels for a display: R G B A, one byte each, R in the lowest byte. `pixels` has one value for each pixel.
 void paint(const Image& image, Show show, std::span<std::uint32_t> pixels);
 
 }  // namespace csgrt

@@ -12,13 +12,13 @@ bool is_loopback(std::string_view address) {
     return address == "127.0.0.1" || address == "::1" || address == "localhost";
 }
 
-/// Is the host an IP address? A name could be anybody's.
+/// Is the host an IP address? A name is not safe, because anybody's name can point to this machine.
 bool is_number(std::string_view host) {
     const bool is_v6 = host.find(':') != host.npos;
     return !host.empty() && host.find_first_not_of(is_v6 ? "0123456789abcdefABCDEF:." : "0123456789.") == host.npos;
 }
 
-/// The host of "127.0.0.1:8000" or "[::1]:8000", without the port and the brackets; empty for other texts.
+/// The host without port and brackets, for texts such as "127.0.0.1:8000" or "[::1]:8000". Empty for other texts.
 std::string_view without_port(std::string_view host) {
     std::string_view name = host, rest;
     if (host.starts_with('[')) {
@@ -58,7 +58,7 @@ int Guard::refusal(const Asker& asker) const {
     if (rest.empty()) return asker.method == "GET" ? 0 : http::not_allowed;
     if (!rest.starts_with("api/")) return http::not_found;
     if (asker.method != "POST") return http::not_allowed;
-    // A form of another site's page cannot have this type.
+    // A form on another site's page cannot send this type.
     return asker.content_type.starts_with("application/json") ? 0 : http::unsupported_type;
 }
 

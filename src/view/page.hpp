@@ -1,4 +1,4 @@
-// page.html, which the build embeds.
+// The text of page.html, which the build embeds.
 #pragma once
 
 #include <string>

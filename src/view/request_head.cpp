@@ -23,7 +23,7 @@ std::string_view trimmed(std::string_view text) {
     return text.substr(begin, text.find_last_not_of(blanks) + 1 - begin);
 }
 
-/// Has the text only the characters of a header's name, or of a method?
+/// Has the text only characters that are allowed in a header's name or a method?
 bool is_word(std::string_view text) {
     return !text.empty() && std::ranges::all_of(text, [](char c) {
         return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
@@ -31,7 +31,7 @@ bool is_word(std::string_view text) {
     });
 }
 
-/// Has the text no end of a line, in any reader's sense?
+/// Has the text no character that some reader takes for the end of a line?
 bool is_plain(std::string_view text) { return text.find_first_of(std::string_view("\0\r\n", 3)) == text.npos; }
 
 bool read_length(std::string_view text, std::uint64_t& length) {

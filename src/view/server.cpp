@@ -23,12 +23,12 @@ namespace csgrt {
 namespace {
 
 constexpr std::size_t places = 512, most_threads = 64;
-constexpr std::size_t most_bytes_of_bodies = 8 * most_body_bytes;  // JSON of a page takes up to 40 times as much
-constexpr std::size_t piece = 262'144;                             // of an answer, before the next check whether the
-                                                                   // server ends
+constexpr std::size_t most_bytes_of_bodies = 8 * most_body_bytes;  // a parsed JSON body takes up to 40 times as much
+                                                                   // memory
+constexpr std::size_t piece = 262'144;  // bytes of an answer between two checks whether the server ends
 constexpr std::chrono::milliseconds tick{50};
-/// The times that a client may take: for a head, for a body, without a request, without taking a byte of its answer,
-/// and to notice that it was refused.
+/// The times after which a client is dropped: while it sends a head or a body, while it sends no request, while it
+/// takes no byte of its answer, and after it was refused.
 constexpr std::chrono::seconds for_head{5}, for_body{30}, without_request{60}, without_taking{10}, to_notice{2};
 
 const char* sentence_of(int status) {
@@ -65,7 +65,7 @@ Addresses addresses_of(const std::string& host, int port, int type, int flags) {
     return {is_known ? found : nullptr, freeaddrinfo};
 }
 
-/// A socket that listens, or none.
+/// Makes a socket that listens. Empty if no address works.
 Handle listening(const std::string& address, int port) {
     const Addresses all = addresses_of(address, port, SOCK_STREAM, AI_PASSIVE);
     for (const addrinfo* one = all.get(); one; one = one->ai_next) {
@@ -85,7 +85,7 @@ int port_of(int socket) {
                                             : reinterpret_cast<const sockaddr_in&>(name).sin_port);
 }
 
-/// This machine's address as the machine `other` sees it; no packet is sent.
+/// This machine's address on the route to the machine `other`. No packet is sent.
 std::string own_address(const char* other, const char* otherwise) {
     const Addresses to = addresses_of(other, 9, SOCK_DGRAM, AI_NUMERICHOST);
     if (!to) return otherwise;
@@ -103,7 +103,7 @@ std::string own_address(const char* other, const char* otherwise) {
 }  // namespace
 
 std::string reachable_address(const std::string& address) {
-    // The addresses are reserved for documents: the route to them leads to other machines.
+    // These addresses are reserved for documentation, so the route to them is the route to other machines.
     if (address == "0.0.0.0") return own_address("192.0.2.1", "127.0.0.1");
     if (address == "::") return own_address("2001:db8::1", "::1");
     return address;
@@ -147,7 +147,7 @@ void Exchange::write(std::string_view bytes) {
     const std::uint64_t at_start = left_;
     auto last = std::chrono::steady_clock::now();
     while (is_good_ && !bytes.empty()) {
-        // A short answer is sent whole when the server ends: a frame's answer says that it was cancelled.
+        // When the server ends, a short answer is still sent: it may tell a page that its frame was cancelled.
         if (stopping_ && at_start > piece) break;
         const ssize_t count = send(socket_, bytes.data(), std::min(bytes.size(), piece), MSG_NOSIGNAL | MSG_DONTWAIT);
         if (count > 0) {
@@ -163,7 +163,7 @@ void Exchange::write(std::string_view bytes) {
     is_good_ = is_good_ && bytes.empty();
 }
 
-// ---- Threads that answer ----
+// ---- Threads that compute answers ----
 
 void Server::work() {
     std::unique_lock lock(mutex_);
@@ -213,7 +213,7 @@ void Server::answer(Connection& connection) noexcept {
     wake();
 }
 
-// ---- The thread that reads ----
+// ---- The thread that reads requests ----
 
 Server::Server(const std::string& address, int port, Refusal refusal, Answer answer)
     : refusal_(std::move(refusal)),
@@ -298,8 +298,8 @@ void Server::close_over() {
     });
 }
 
-/// Closes the slowest connection that was not admitted, else the one that was silent for longest. False: all are being
-/// answered.
+/// Closes a connection to make place: the slowest one that was not admitted, or else the one that was silent for
+/// longest. False: all connections are being answered.
 bool Server::take_place() {
     const auto is_better = [](const Connection& a, const Connection& b) {
         return std::pair(a.is_admitted, a.deadline) < std::pair(b.is_admitted, b.deadline);
@@ -320,7 +320,7 @@ void Server::accept_some() {
         Handle made(accept4(listener_, nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK));
         if (made < 0) {
             const bool is_full = errno == EMFILE || errno == ENFILE || errno == ENOBUFS || errno == ENOMEM;
-            if (is_full && !take_place()) accepts_ = false;  // until the next tick
+            if (is_full && !take_place()) accepts_ = false;  // no connection is accepted until the next tick
             if (!is_full && errno != ECONNABORTED && errno != EINTR) return;
             if (!accepts_) return;
             continue;
@@ -342,7 +342,7 @@ void Server::receive(Connection& connection) {
         connection.is_over = count == 0 || !again();
         return;
     }
-    if (connection.phase == Phase::refused) return;  // else the client would lose the answer
+    if (connection.phase == Phase::refused) return;  // closing now would lose the answer
     if (connection.phase == Phase::head && connection.bytes.empty())
         connection.deadline = std::min(connection.deadline, Clock::now() + for_head);
     advance(connection, {chunk.data(), static_cast<std::size_t>(count)});
@@ -389,7 +389,7 @@ void Server::advance(Connection& connection, std::string_view more) try {
     connection.is_over = true;
 }
 
-/// Sends the answer and nothing more; further bytes are discarded until the client has seen it.
+/// Sends a refusal. Further bytes of the client are discarded until it has seen the refusal.
 void Server::refuse(Connection& connection, int status) {
     const std::string why = std::string(R"({"error":")") + sentence_of(status) + "\"}",
                       text = head_of(status, json_type, why.size(), true) + why;

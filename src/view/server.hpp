@@ -1,6 +1,6 @@
-// Server of HTTP/1.1 for few admitted clients and any number of others. One thread reads all requests; other threads
-// answer those that were admitted. A client takes no thread while it sends, or is silent. Before it is admitted, at
-// most most_head_bytes of it are kept.
+// Server of HTTP/1.1 for few admitted clients and any number of others. One thread reads all requests, and other
+// threads answer the admitted ones. A client takes no thread while it sends or is silent. Of a client that is not
+// admitted, at most most_head_bytes are kept.
 #pragma once
 
 #include <atomic>
@@ -24,7 +24,7 @@ namespace csgrt {
 
 inline constexpr const char* json_type = "application/json; charset=utf-8";
 
-/// An open file of the system, or none (-1).
+/// Owns a file descriptor of the system, or none (-1).
 class Handle {
 public:
     explicit Handle(int number = -1) : number_(number) {}
@@ -46,9 +46,9 @@ public:
     const RequestHead& head;
     const std::string body;
 
-    /// False: the client is gone, or the server ends.
+    /// False if the client has closed the connection, or the server ends.
     bool is_wanted() const;
-    /// Sends all of an answer except the last `later` bytes, which write() sends. Only the first answer is sent.
+    /// Sends all of an answer except the last `later` bytes, which write() sends. Later calls have no effect.
     void answer(int status, const char* type, std::initializer_list<std::string_view> parts, std::uint64_t later = 0);
     void write(std::string_view bytes);
 
@@ -61,11 +61,12 @@ private:
 
     const int socket_;
     const std::atomic<bool>& stopping_;
-    std::uint64_t left_ = 0;  ///< bytes of the answer that are not sent yet
+    std::uint64_t left_ = 0;  ///< number of the answer's bytes that are not sent yet
     bool has_begun_ = false, is_good_ = true;
 };
 
-/// The address by which others reach this machine, if `address` means all of its addresses; else `address`.
+/// The address by which other machines reach this one if `address` stands for all of its addresses; otherwise
+/// `address`.
 std::string reachable_address(const std::string& address);
 
 class Server {
@@ -74,18 +75,19 @@ public:
     using Refusal = std::function<int(const Asker&)>;
     using Answer = std::function<void(Exchange&)>;
 
-    /// Starts to listen; port 0 is any free port. Throws Error (file) if it cannot, or gets no thread.
+    /// Starts to listen. Port 0 is any free port. Throws Error (file) if this fails, or no thread is available.
     Server(const std::string& address, int port, Refusal refusal, Answer answer);
     ~Server();
     Server(const Server&) = delete;
     Server& operator=(const Server&) = delete;
 
     int port() const { return port_; }
-    /// Serves until stop() is called or `go_on`, which is called twenty times a second or more, returns false. Once.
+    /// Serves until stop() is called or `go_on` returns false, which is called at least twenty times a second. Call
+    /// run() once.
     void run(const std::function<bool()>& go_on);
     /// Ends run(). Any thread.
     void stop();
-    /// Has another thread do the work. Only the thread in run() may call it.
+    /// Gives work to another thread. Only the thread in run() may call this.
     void submit(std::function<void()> work);
 
 private:
@@ -95,9 +97,9 @@ private:
         Handle socket;
         Clock::time_point deadline = {};
         Phase phase = Phase::head;
-        bool is_admitted = false;  ///< a request of it was admitted
+        bool is_admitted = false;  ///< a request of the connection was admitted
         RequestHead head = {};
-        std::string bytes = {};  ///< that have arrived
+        std::string bytes = {};  ///< bytes that have arrived and are not used yet
         bool is_over = false;
     };
 
@@ -118,7 +120,7 @@ private:
     Handle listener_, wake_;
     int port_ = 0;
     std::list<Connection> connections_ = {};
-    std::size_t body_bytes_ = 0;  ///< of the bodies that arrive, or are answered
+    std::size_t body_bytes_ = 0;  ///< total size of the bodies that arrive or are being answered
     bool accepts_ = true;
     std::atomic<bool> stopping_{false};
 
@@ -127,8 +129,8 @@ private:
     std::deque<std::function<void()>> work_ = {};
     std::size_t idle_ = 0;
     bool is_ended_ = false;
-    std::vector<Connection*> answered_ = {};    ///< since run() looked last
-    std::vector<Connection*> taken_back_ = {};  ///< of run()
+    std::vector<Connection*> answered_ = {};    ///< connections that were answered since run() looked last
+    std::vector<Connection*> taken_back_ = {};  ///< memory that only run() uses
     std::optional<JoinedThreads> threads_ = {};
 };
 

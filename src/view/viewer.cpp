@@ -35,7 +35,7 @@ void answer_json(Exchange& exchange, const Json& json, int status = http::good) 
 struct Viewer::Impl {
     using Clock = std::chrono::steady_clock;
 
-    /// The identity of a file and of its version; for a missing file the error.
+    /// The identity of a file and of its version, or the error if the file is missing.
     struct Stamp {
         int error = 0;
         mode_t kind = 0;
@@ -45,7 +45,7 @@ struct Viewer::Impl {
         std::pair<std::int64_t, std::int64_t> written = {}, changed = {};
         bool operator==(const Stamp&) const = default;
         bool is_file() const { return error == 0 && S_ISREG(kind); }
-        /// The reason why the file cannot be loaded.
+        /// The reason why the file cannot be loaded, as the end of a sentence.
         std::string fault() const {
             if (error == ENOENT) return "is not there any more";
             if (error != 0) return std::strerror(error);
@@ -69,7 +69,7 @@ struct Viewer::Impl {
     const Guard guard;
     ViewSession session;
     std::map<std::string, std::function<void(const Request&, Exchange&)>, std::less<>> answers = {};
-    Stamp loaded, seen;  ///< of the file: when the model was read, and at the last check
+    Stamp loaded, seen;  ///< the file's stamps: when the model was read, and at the last check
     Clock::time_point next_look = {};
     std::atomic<bool> is_loading{false};
     Server server;

@@ -19,7 +19,7 @@ namespace {
 struct ChannelDifference {
     std::size_t pixels = 0;    ///< number of different pixels
     double largest = -1;       ///< infinite if a differing value is not a finite number; -1: no pixel differs
-    std::size_t position = 0;  ///< of the largest difference
+    std::size_t position = 0;  ///< index of the pixel with the largest difference
 };
 
 /// A channel's values, and their meaning.

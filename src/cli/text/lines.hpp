@@ -51,7 +51,7 @@ private:
     std::string name_;
     File file_;
     std::string buffer_;
-    std::size_t begin_ = 0, end_ = 0;  ///< of the unread part of the buffer
+    std::size_t begin_ = 0, end_ = 0;  ///< the unread part of the buffer
     std::string_view line_;
     int line_number_ = 0;
 };

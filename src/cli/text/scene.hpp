@@ -12,8 +12,8 @@
 
 namespace csgrt::cli {
 
-/// "operators.json part-1 part-2": the scene file's name without its folders, and the objects that the user named
-/// (none: its top objects), blanks in names escaped.
+/// "operators.json part-1 part-2": the scene file's name without its folders, and the objects that the user named.
+/// Blanks in names are escaped.
 std::string model_text(const SceneArguments& arguments);
 
 /// The box of the bounded regions: six numbers, which `number` converts to text, or "unbounded" or "empty". `in_words`

@@ -43,7 +43,7 @@ private:
 
     RowFormat format_;
     std::vector<std::string> names_;  ///< for each region: three columns of CSV
-    std::vector<int> los_;            ///< of the regions
+    std::vector<int> los_;            ///< for each region: BRL-CAD's attribute los
 };
 
 }  // namespace csgrt::cli

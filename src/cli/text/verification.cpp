@@ -13,7 +13,7 @@ namespace csgrt::cli {
 
 namespace {
 
-constexpr std::size_t most_printed = 5;  ///< of each kind of ray; --json has more
+constexpr std::size_t most_printed = 5;  ///< number of printed rays of each kind; --json has more
 
 const char* where_wrong(const WrongRay& ray) {
     if (ray.on_device && ray.on_reference) return "device and reference";

@@ -18,10 +18,10 @@ Scene read_brlcad_asc(const std::string& path, bool lenient = false, const std::
 /// Reads a text in memory: v5 if it starts with a Tcl command, else v4.
 Scene parse_brlcad_asc(const TextSource& source, bool lenient = false);
 
-/// Reads release 4 and older: one record a line, named by its first letter.
+/// Reads databases of release 4 and older: each line is a record, whose first letter is its kind.
 Scene parse_brlcad_asc_v4(const TextSource& source, bool lenient = false);
 
-/// Reads release 5 and newer: Tcl commands (title, units, color, put, attr).
+/// Reads databases of release 5 and newer: Tcl commands (title, units, color, put, attr).
 Scene parse_brlcad_asc_v5(const TextSource& source, bool lenient = false);
 
 }  // namespace csgrt

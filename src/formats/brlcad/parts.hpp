@@ -17,8 +17,8 @@ namespace csgrt {
 /// Completes the solids of one model, and limits the files and bytes that a model can make csgrt read.
 class BrlcadParts {
 public:
-    /// The most bytes that all solids of one model together may copy: many solids may name one large sketch or file,
-    /// and each gets a copy.
+    /// The most bytes that all solids of one model together may copy: each solid that names a sketch or file gets a
+    /// copy.
     static constexpr std::uint64_t most_bytes = max_file_bytes;
 
     /// `find` returns the object with a name, or nullptr. Names of files are relative to `folder`; only files below one
@@ -42,7 +42,7 @@ private:
     std::string read_object(const std::string& name, std::uint64_t bytes, unsigned size) const;
     void spend(std::uint64_t bytes);
 
-    std::filesystem::path folder_;                ///< as in the model's name
+    std::filesystem::path folder_;                ///< the folder as it is written in the model's name
     std::filesystem::path base_;                  ///< without links and ..
     std::vector<std::filesystem::path> allowed_;  ///< without links and ..
     std::function<const BrlcadItem*(const std::string&)> find_;

@@ -1,4 +1,4 @@
-// Shader strings of BRL-CAD.
+// Shaders: reads BRL-CAD's shader strings.
 #pragma once
 
 #include <string>

@@ -83,7 +83,7 @@ private:
 struct JsonNode::Member {
     std::string name;
     JsonNode value;
-    Place place;  ///< of the name
+    Place place;  ///< the name's place
 
     void fault(std::string message, std::string suggestion = {}) const;
     std::size_t offset = 0;

@@ -18,7 +18,7 @@ constexpr std::array<std::array<std::size_t, 8>, 5> arb_orders = {{
     {0, 1, 2, 3, 4, 5, 6, 7},
 }};
 
-/// The coordinate axis most nearly at a right angle to `u`.
+/// The coordinate axis whose angle to `u` is closest to a right angle.
 Vec3 most_perpendicular(const Vec3& u) {
     const double x = std::abs(u.x), y = std::abs(u.y), z = std::abs(u.z);
     if (x <= y && x <= z) return {1, 0, 0};

@@ -52,7 +52,7 @@ const std::vector<Reader>& readers() {
     return all;
 }
 
-/// The hint for an object without a type.
+/// The suggestion for an object without a type: a list of all types.
 std::string all_types() {
     std::string list;
     for (const Reader& reader : readers()) list += (list.empty() ? "one of " : ", ") + std::string(reader.type);

@@ -194,7 +194,7 @@ private:
     Findings& findings_;
     const std::size_t& consumed_;
     std::size_t token_end_ = 0;  // the end of the last reported token
-    std::vector<Level> levels_;  // pointers stay valid: only the innermost container grows
+    std::vector<Level> levels_;  // the levels' pointers stay valid, because only the innermost container grows
     std::optional<JsonValue> root_;
 };
 

@@ -1,4 +1,5 @@
-// Families: the declarations that the files share that check solids by family.
+// Families: functions that check several members of a solid together. Each file family_*.cpp checks one family of
+// solids.
 #pragma once
 
 #include <algorithm>
@@ -15,8 +16,8 @@ namespace csgrt {
 
 using Faults = std::vector<std::string>;
 
-// Checks several members together, and lists that have millions of items. Called when all single numbers are finite;
-// `faults` has the faults of single members.
+// Check several members together, and lists of millions of items. Called if all single numbers are finite. `faults`:
+// has the faults of single members already, and gets the new ones.
 
 template <class S>
 void check_further(Faults&, const S&) {}
@@ -49,12 +50,12 @@ void check_further(Faults& faults, const Dsp& s);
 void check_further(Faults& faults, const Extrude& s);
 void check_further(Faults& faults, const Revolve& s);
 
-/// The sine of the angle by which vectors that are called parallel may differ (perpendicular: the cosine). BRL-CAD's
-/// databases keep vectors of single precision, with errors of up to 1e-6; its ray tracer refuses beyond a cosine of
-/// 0.999.
+/// The largest sine of the angle between vectors that count as parallel, and the largest cosine for perpendicular ones.
+/// BRL-CAD's databases hold vectors in single precision, with errors of up to 1e-6, and its ray tracer accepts parallel
+/// vectors whose cosine is at least 0.999.
 inline constexpr double angle_slack = 1e-3;
 
-/// Checks a count against its limit. False, and a fault, if it is more.
+/// Checks a count against its limit. Adds a fault and returns false if the count is above the limit.
 inline bool require_at_most(Faults& faults, const std::string& what, std::size_t count, std::size_t limit) {
     if (count <= limit) return true;
     faults.push_back("it has " + std::to_string(count) + " " + what + "; at most " + std::to_string(limit) +
@@ -62,7 +63,7 @@ inline bool require_at_most(Faults& faults, const std::string& what, std::size_t
     return false;
 }
 
-/// The text "face 3 uses vertex 9, and there are 5", ...: the part after the user's name.
+/// The end of a sentence such as "face 3 uses vertex 9, but there are 5", from " uses" on.
 inline std::string uses_missing_vertex(std::size_t vertex, std::size_t count) {
     return " uses vertex " + std::to_string(vertex) + ", but there " +
            (count == 0   ? "are no vertices"

@@ -19,7 +19,7 @@ void check_placement(Faults& faults, const Matrix& m) {
     }
 }
 
-/// False, and a fault, unless there are as many cells as the size says.
+/// Adds a fault and returns false unless the number of cells is the product of the sizes.
 bool check_count(Faults& faults, const std::vector<std::uint32_t>& size, std::size_t cells, const std::string& what) {
     std::uint64_t product = 1;
     std::string text;

@@ -6,10 +6,10 @@ namespace csgrt {
 
 namespace {
 
-/// The rounding by which a length may pass another that it is computed to equal.
+/// The relative rounding error by which a length may exceed a limit that it was computed to equal.
 constexpr double rounding = 1e-9;
 
-/// The greatest sum of the fields of all points: each is greatest at its point. Infinite for 1 / r.
+/// An upper bound of the sum of all points' fields: each field is greatest at its point. Infinite for fields 1 / r.
 double greatest_field(const Metaball& s) {
     double sum = 0;
     for (const Metaball::Point& p : s.points) {
@@ -27,11 +27,11 @@ double greatest_field(const Metaball& s) {
     return sum;
 }
 
-/// Requires that the end of a tgc that tapers along `end` keeps the direction of `start`.
+/// Requires that the semi-axes `start` and `end` at the two ends of a tgc are parallel.
 void require_parallel(Faults& faults, const char* names, const Vec3& start, const Vec3& end) {
     const double squares = dot(start, start) * dot(end, end), along = dot(start, end);
     const Vec3 across = cross(start, end);
-    // Far from a limit no root is needed.
+    // This test, without a root, suffices for most tgcs.
     if (squares > 1e-280 && along > 0 && dot(across, across) < 0.25 * angle_slack * angle_slack * squares) return;
     if (length(start) == 0 || length(end) == 0) return;
     if (length(cross(unit(start), unit(end))) > angle_slack) {
@@ -71,9 +71,9 @@ void check_further(Faults& faults, const Tor& s) {
     }
 }
 
-/// Checks BRL-CAD's rule: each of the two semi-axes by itself, c and the one across it, extends no farther along a
-/// radius than the axis. The ellipse may cross the axis: it is drawn without the space in both it and its mirror image.
-/// If c points down, the second semi-axis is not checked.
+/// Checks BRL-CAD's rule: neither semi-axis, c or the one perpendicular to c, may extend beyond the axis in the
+/// direction of a radius. The ellipse itself may cross the axis: then the space that is inside both the ellipse and its
+/// mirror image is left out. If c points down, BRL-CAD does not check the second semi-axis.
 void check_further(Faults& faults, const Eto& s) {
     if (!faults.empty()) return;
     const double along_axis = dot(unit(s.n), unit(s.c));

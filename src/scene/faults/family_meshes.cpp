@@ -7,7 +7,7 @@ namespace csgrt {
 
 namespace {
 
-/// Checks vertices. One sentence reports the first vertex that is not a point; no other fault is reported then.
+/// Checks that vertices are finite and in range. Only the first wrong vertex is reported.
 bool check_places(Faults& faults, const std::vector<Vec3>& places, const std::string& what) {
     for (std::size_t i = 0; i < places.size(); ++i) {
         const bool finite = is_finite(places[i]);
@@ -42,7 +42,8 @@ void check_plates(Faults& faults, const Bot& s) {
     }
 }
 
-/// The first fault of a face, or nothing. A face that is not flat is cut into triangles as it is seen along its normal.
+/// The first fault of a face, or an empty text. A face that is not flat is allowed: its projection along its normal is
+/// cut into triangles.
 std::string face_fault(const std::vector<Nmg::Loop>& face, const std::vector<Vec3>& vertices) {
     if (face.empty()) return " has no outline";
     for (const Nmg::Loop& loop : face) {
@@ -62,7 +63,7 @@ bool has_area(const Nmg::Loop& loop, const std::vector<Vec3>& vertices) {
 
 }  // namespace
 
-/// An open mesh is allowed: many of BRL-CAD's are open, and each ray decides.
+/// An open mesh is allowed, as many of BRL-CAD's are. Each ray decides by its own hits what is inside.
 void check_further(Faults& faults, const Bot& s) {
     if (!require_at_most(faults, "faces", s.faces.size(), Limits::triangles)) return;
     if (!require_at_most(faults, "vertices", s.vertices.size(), Limits::triangles)) return;

@@ -7,13 +7,13 @@ namespace csgrt {
 
 namespace {
 
-/// The rounding by which a length may pass another that it is computed to equal.
+/// The relative rounding error by which a length may exceed a limit that it was computed to equal.
 constexpr double rounding = 1e-9;
 
-/// The sine of the angle below which two directions run straight on, or straight back.
+/// The sine of the angle below which two directions count as equal or opposite.
 constexpr double straight = 1e-9;
 
-/// The length of the straight parts on both sides of a bend that its arc replaces; 0 where the pipe runs straight on.
+/// The length that a bend's arc takes of the straight part on each of its sides. 0 where the pipe runs straight on.
 double tangent_at(Faults& faults, const Pipe& s, std::size_t i) {
     const Pipe::Point& p = s.points[i];
     const Vec3 into = unit(p.position - s.points[i - 1].position), out = unit(s.points[i + 1].position - p.position);
@@ -26,7 +26,8 @@ double tangent_at(Faults& faults, const Pipe& s, std::size_t i) {
     if (!(p.bend >= p.outer / 2 * (1 - rounding))) {
         faults.push_back("the bend" + at + " must have a radius of half the outer diameter or more");
     }
-    return p.bend * (cosine > -0.5 ? sine / (1 + cosine) : (1 - cosine) / sine);  // as in flatten/solid_parts.cpp
+    return p.bend * (cosine > -0.5 ? sine / (1 + cosine) : (1 - cosine) / sine);  // the same formula as in
+                                                                                  // flatten/solid_parts.cpp
 }
 
 }  // namespace
@@ -41,7 +42,7 @@ void check_further(Faults& faults, const Pipe& s) {
         }
     }
     if (!faults.empty()) return;
-    double before = 0;  // the length that the bend at the last point takes of the part behind it
+    double before = 0;  // the length that the last point's bend takes of the straight part after it
     for (std::size_t i = 1; i < s.points.size(); ++i) {
         const double tangent = i + 1 < s.points.size() ? tangent_at(faults, s, i) : 0;
         const double apart = length(s.points[i].position - s.points[i - 1].position);

@@ -9,8 +9,8 @@ namespace csgrt {
 
 namespace {
 
-/// Do three edges make a volume far above a flat solid's, as in most arbs? The volume of a solid of size s and
-/// thickness t is at most 3 t s^2, and s is at most 4 times the largest coordinate.
+/// A quick test, true for most arbs: do three edges span a volume far above that of a flat solid? A solid of size s and
+/// thickness t has at most the volume 3 t s^2, and s is at most 4 times the largest coordinate.
 bool plainly_solid(const Arb& s) {
     double reach = 0;
     for (const Vec3& v : s.vertices) reach = std::max({reach, std::abs(v.x), std::abs(v.y), std::abs(v.z)});
@@ -49,8 +49,8 @@ void check_volume(Faults& faults, const Arb& s) {
 
 }  // namespace
 
-/// Checks that some triangle of vertices has an area, and some vertex lies off its plane; that the faces do not lie on
-/// one another; and that no face of a surface crosses itself.
+/// Checks that the vertices do not lie in one plane, that the faces do not lie on one another, and that no face of a
+/// concave arb crosses itself.
 void check_further(Faults& faults, const Arb& s) {
     check_volume(faults, s);
     if (!faults.empty()) return;

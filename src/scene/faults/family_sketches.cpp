@@ -12,11 +12,11 @@ namespace csgrt {
 
 namespace {
 
-/// The rounding by which a number may pass another that it is computed to equal.
+/// The relative rounding error by which a number may exceed a limit that it was computed to equal.
 constexpr double rounding = 1e-9;
 
-/// Finds a curve's least u. Only curves with control points beyond the axis are evaluated, at a few points in each
-/// span, so the result is on the curve.
+/// Finds a curve's least u, as far as a profile's check needs it. Only curves with control points beyond the axis are
+/// evaluated, at a few points in each span, so that the result is a point of the curve.
 struct LeastU {
     const Sketch& sketch;
 
@@ -47,7 +47,7 @@ struct LeastU {
         return u;
     }
 
-    /// The curve's u by de Boor's algorithm, with weights; t within the span.
+    /// The curve's u at t, which must be in the span, by de Boor's algorithm with weights.
     double u_at(const Sketch::Nurb& c, std::size_t span, double t) const {
         const std::size_t degree = c.order - 1;
         std::array<double, Limits::curve_degree + 1> u{}, w{};
@@ -68,7 +68,7 @@ struct LeastU {
     }
 };
 
-/// Checks a profile. Loose ends are not faults: they are joined to the axis.
+/// Checks a profile. Loose ends are allowed, because lines join them to the axis.
 void check_profile(Faults& faults, const Sketch& sketch) {
     double size = 0;
     for (const Sketch::Point& p : sketch.vertices) size = std::max({size, std::abs(p.u), std::abs(p.v)});
@@ -83,7 +83,7 @@ void check_profile(Faults& faults, const Sketch& sketch) {
     }
 }
 
-/// Are there loose ends? Gaps that BRL-CAD does not see are closed, so they are not faults.
+/// Has the outline loose ends? Gaps that are too small for BRL-CAD do not count, because they are closed.
 bool is_open(const Sketch& sketch) {
     if (open_ends(sketch).empty()) return false;
     std::vector<BezierCurve> curves = bezier_curves(sketch);

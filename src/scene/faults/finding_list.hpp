@@ -1,4 +1,4 @@
-// Finding list: as many findings as a person reads, and the number of the others.
+// Finding list: the first findings, and the number of the others.
 #pragma once
 
 #include <algorithm>
@@ -20,14 +20,14 @@ inline bool comes_before(const Place& a, const Place& b) {
 /// Collects findings and sorts them by their places in the file.
 class FindingList {
 public:
-    /// The most findings that are shown; the others are counted.
+    /// The largest number of findings that are shown. Others are only counted.
     static constexpr std::size_t most = 50;
 
     bool empty() const noexcept { return found_.empty(); }
     bool full() const noexcept { return found_.size() == most; }
     /// Counts a finding that is not shown.
     void leave_out() noexcept { ++left_out_; }
-    /// Notes that not everything was checked.
+    /// Notes that the check stopped early.
     void stop() noexcept { stopped_ = true; }
     void add(Diagnostic diagnostic) {
         if (full()) return leave_out();
@@ -38,7 +38,7 @@ public:
                          [](const Diagnostic& a, const Diagnostic& b) { return comes_before(a.place, b.place); });
     }
     std::vector<Diagnostic>& shown() noexcept { return found_; }
-    /// Returns all findings, and last the number of further ones, if there are any. Empties the list.
+    /// Takes all findings out of the list. If there are more than these, the last one tells their number.
     std::vector<Diagnostic> take() {
         if (left_out_ > 0 || stopped_)
             found_.push_back({{},

@@ -12,7 +12,7 @@ namespace csgrt {
 namespace {
 
 bool in_range(double value, double low, double high) {
-    return value >= low && value <= high;  // false for NaN
+    return value >= low && value <= high;  // also false for NaN
 }
 bool not_negative(double value) { return value >= 0 && std::isfinite(value); }
 bool is_axis(const Vec3& v) { return is_finite(v) && v != Vec3{}; }
@@ -20,7 +20,7 @@ bool is_color(const Vec3& color) {
     return in_range(color.x, 0, 1) && in_range(color.y, 0, 1) && in_range(color.z, 0, 1);
 }
 
-/// Checks values that a scene holds once. Their places have no file: it is unknown here.
+/// Checks values that a scene has once. Their places have no file, because the scene does not know it.
 class Settings {
 public:
     explicit Settings(const Report& report) : report_(report) {}

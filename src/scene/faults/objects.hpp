@@ -1,4 +1,4 @@
-// Objects: checks the scene's settings, a combination's attributes and its tree, each value on its own.
+// Objects: checks a scene's settings and a combination's attributes and tree, each value by itself.
 #pragma once
 
 #include <functional>
@@ -8,10 +8,10 @@
 
 namespace csgrt {
 
-/// Receives a finding: its place, the fault, and what to do.
+/// Receives a finding: its place, the fault, and a suggestion.
 using Report = std::function<void(const Place& place, std::string message, std::string suggestion)>;
 
-/// Checks camera, lights, background and tolerance. Their place is only their name.
+/// Checks camera, lights, background and tolerance. The place of such a finding is only a name.
 void check_settings(const Scene& scene, const Report& report);
 
 /// Checks colour and finish.

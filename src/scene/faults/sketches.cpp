@@ -91,7 +91,7 @@ struct CurveFault {
     }
 };
 
-/// The vertices at both ends of a curve; nothing for a circle.
+/// The vertices at a curve's ends. Nothing for a circle.
 struct EndsOf {
     using Ends = std::optional<std::pair<std::uint32_t, std::uint32_t>>;
     Ends operator()(const Sketch::Line& c) const { return Ends({c.start, c.end}); }
@@ -128,7 +128,7 @@ std::vector<std::uint32_t> open_ends(const Sketch& sketch) {
     std::vector<std::uint32_t> ends;
     for (const Sketch::Curve& curve : sketch.curves)
         if (const auto both = std::visit(EndsOf{}, curve)) ends.insert(ends.end(), {both->first, both->second});
-    // Vertices of one position are one.
+    // Vertices at the same position count as one vertex.
     const auto place = [&](std::uint32_t v) { return std::pair(sketch.vertices[v].u, sketch.vertices[v].v); };
     std::sort(ends.begin(), ends.end(),
               [&](std::uint32_t a, std::uint32_t b) { return std::pair(place(a), a) < std::pair(place(b), b); });
@@ -148,8 +148,8 @@ double least_u(const Sketch& sketch, const Sketch::Arc& arc) {
     const double away = std::sqrt(std::max(0.0, (arc.radius - chord / 2) * (arc.radius + chord / 2)));
     const double left = arc.center_left ? away : -away;
     const double u = (p.u + q.u) / 2 - left * dv / chord, v = (p.v + q.v) / 2 + left * du / chord;
-    // The circle's point of least u is on the arc if it is on the arc's side of the chord: the left side of a clockwise
-    // arc.
+    // The circle's point with the least u is on the arc if it is on the same side of the chord. A clockwise arc is on
+    // the left side.
     const double side = du * (v - p.v) - dv * (u - arc.radius - p.u);
     const bool on_arc = arc.clockwise ? side > 0 : side < 0;
     return on_arc ? u - arc.radius : std::min(p.u, q.u);

@@ -1,4 +1,4 @@
-// Sketches: checks an outline, whatever solid is made of it.
+// Sketches: checks an outline, for all solids that use sketches.
 #pragma once
 
 #include <cstdint>
@@ -9,14 +9,14 @@
 
 namespace csgrt {
 
-/// The faults, one sentence each. If there are none, every index is a vertex's, every arc has a centre, every curve
-/// ends at its first and last points, and `open_ends` may be called.
+/// The faults, one sentence each. If there are none, every index is valid, every arc has a centre, every curve ends at
+/// its first and last points, and `open_ends` may be called.
 std::vector<std::string> sketch_faults(const Sketch& sketch);
 
-/// Vertices where an odd number of curves end, one for each position. All other positions are on closed loops.
+/// Vertices where an odd number of curves end, one vertex for each position. All other curves form closed loops.
 std::vector<std::uint32_t> open_ends(const Sketch& sketch);
 
-/// The least u of an arc of a sketch without faults: between its ends it may come nearer to the axis than they are.
+/// The least u of an arc, which may be between its ends. The sketch must have no faults.
 double least_u(const Sketch& sketch, const Sketch::Arc& arc);
 
 }  // namespace csgrt

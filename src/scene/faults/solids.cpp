@@ -34,11 +34,11 @@ struct Numbers {
     void add(const std::array<Vec3, 8>& vertices) {
         for (const Vec3& v : vertices) add(v);
     }
-    void add(const auto&) {}  // no numbers, or lists that check_further checks
+    void add(const auto&) {}  // values without numbers, and lists that check_further checks
 };
 
-/// Reports a number that is not finite or beyond the largest length, once a solid. Other faults of such a solid are not
-/// reported.
+/// Reports a number that is not finite or is beyond the largest length, at most one for each solid. Other faults of
+/// such a solid are not reported.
 template <class S>
 bool check_numbers(Faults& faults, const S& s) {
     Numbers numbers;
@@ -72,14 +72,14 @@ template <class S>
 struct CheckRules {
     Faults& faults;
     const S& s;
-    std::string where;  ///< the part of the solid that `s` is; empty: the solid itself
+    std::string where;  ///< tells the part of the solid that `s` is; empty if `s` is the solid
 
     void all() {
         for_values(s, [&](const auto& member, const auto& value) { check(member.kind, value, member.rule); });
     }
 
 private:
-    void check(const auto&...) {}  // nothing to check, or for check_further
+    void check(const auto&...) {}  // members without a rule, or with a rule that check_further checks
 
     void check(const auto&, double value, const form::Bounds& rule) {
         if (!rule.hold(value)) faults.push_back(rule.called + where + " " + rule.sentence);
@@ -92,7 +92,7 @@ private:
             faults.push_back(rule.called + where + " must be perpendicular to " + rule.other_called);
     }
 
-    /// False, and a fault, if the vector has no length, or one that a direction must not have.
+    /// Adds a fault and returns false if the vector has length 0, or if it is a direction and not a unit vector.
     template <class Kind>
     bool check_length(const Kind&, const Vec3& v, const char* called) {
         if (!(length(v) > 0)) {

@@ -1,4 +1,4 @@
-// Faults of one solid, whoever made it.
+// Faults of one solid, which a reader or a program made.
 #pragma once
 
 #include <string>
@@ -8,8 +8,8 @@
 
 namespace csgrt {
 
-/// The faults, one sentence each; empty: the solid has an inside that can be ray-traced. Unsupported solids have no
-/// faults.
+/// The faults, one sentence each. Without faults, the solid encloses space and can be traced. Unsupported solids have
+/// no faults.
 std::vector<std::string> solid_faults(const Shape& shape);
 
 }  // namespace csgrt

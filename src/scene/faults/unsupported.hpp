@@ -7,7 +7,7 @@
 
 namespace csgrt {
 
-/// The reason why such a solid cannot be drawn, and what to do: one sentence.
+/// One sentence: the reason why such a solid cannot be drawn, and a suggestion.
 std::string why_left_out(const Unsupported& shape);
 
 }  // namespace csgrt

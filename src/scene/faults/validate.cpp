@@ -1,5 +1,5 @@
-// Validation: one walk over everything that the rendered objects use, each object once. The number of solids below an
-// object is summed on the way back, so neither depth nor sharing costs time.
+// Validation: one walk over all objects that the rendered objects use. It visits each object once, and sums the number
+// of solids below the object on the way back, so neither depth nor sharing costs time.
 #include <algorithm>
 #include <cstdint>
 #include <iterator>
@@ -68,12 +68,12 @@ public:
 private:
     enum class Visit : std::uint8_t { unseen, open, done };
     struct Reached {
-        std::uint64_t solids = 0;  ///< instances, repeats counted: below the object, or of the solid itself
-        std::uint32_t height = 0;  ///< combinations on the longest path downward, with this one
-        std::uint32_t users = 0;   ///< members that name it, each counted once
+        std::uint64_t solids = 0;  ///< number of solid instances below a combination, or that a solid counts for
+        std::uint32_t height = 0;  ///< number of combinations on the longest path downward, this object included
+        std::uint32_t users = 0;   ///< number of members that name the object
         std::uint32_t first_user = 0;
         Visit visit = Visit::unseen;
-        bool sound = false;  ///< it has no fault of its own
+        bool sound = false;  ///< the object has no fault of its own
     };
     struct Level {};
     friend class Walk<Level>;
@@ -83,7 +83,7 @@ private:
         found_.add({place, std::move(message), std::move(suggestion), {}});
     }
 
-    /// Marks the objects without a fault of their own, so that the walk need not check them. Nearly all have none.
+    /// Marks the objects without a fault of their own, which nearly all are, so that the walk need not check them.
     void find_sound() {
         constexpr std::size_t chunk = 2048;
         for_chunks(objects_.size(), chunk, 0, [this](std::size_t first, std::size_t last, std::size_t) {
@@ -115,7 +115,7 @@ private:
                 check_matrix(names_.node(path.steps[i - 1].object, path.steps[i].node), report_);
         }
         if (roots.empty() && named.empty() && scene_.top.empty()) {
-            // Every object is used by another: they form a cycle, which a walk from any object finds.
+            // Every object is used by another one, so there is a cycle. A walk from all objects finds it.
             for (std::uint32_t i = 0; i < scene_.objects.size(); ++i) roots.push_back(i);
         }
         return roots;
@@ -130,8 +130,8 @@ private:
         }
     }
 
-    /// Begins the visit of an object, and reports its faults. Returns whether it is a combination, whose tree the
-    /// caller walks then.
+    /// Begins the visit of an object, and reports its faults. True: the object is a combination, and the caller walks
+    /// its tree.
     bool enter(std::uint32_t object) {
         objects_[object].visit = Visit::open;
         const bool is_solid = names_.is_solid(object);
@@ -155,14 +155,15 @@ private:
         warnings_.push_back({object, place, std::move(reason), 1});
     }
 
-    /// Leaves an object out. The members that name it are counted when all are known.
+    /// Leaves an object out. The warning's count, the number of members that name the object, is known only after the
+    /// walk.
     void leave_out(std::uint32_t object, const Place& place, const std::string& reason) {
         names_.leave_out(object);
         counted_.emplace_back(warnings_.size(), object);
         tolerate(name_of(scene_.objects[object]), place, "left out: " + reason);
     }
 
-    /// Leaves out the wrong parts of a combination. Returns whether its tree can be walked.
+    /// Leaves out the faulty parts of a combination. Returns whether its tree can be walked.
     bool leave_out_parts(std::uint32_t object) {
         const Combination& combination = std::get<Combination>(scene_.objects[object]);
         check_attributes(combination, [&](const Place& place, const std::string& message, const std::string&) {
@@ -197,9 +198,10 @@ private:
                  "left out: there is no such object; used by '" + name_of(scene_.objects[parent]) + "'");
     }
 
-    // The walk calls the functions below.
+    // The class Walk calls the functions below.
 
-    /// Goes from a combination to a member. A child that is done already is added now, a new child when it is left.
+    /// Goes from a combination to a member. The numbers of a child that is already done are added to the combination
+    /// here; the numbers of a new child are added when the walk leaves it.
     std::optional<Level> follow(const Open& parent, std::uint32_t node, std::uint32_t object) {
         if (object == Names::none) {
             follow_missing(parent.object, node);
@@ -212,7 +214,7 @@ private:
         } else if (child.visit == Visit::done) {
             add_below(parent.object, child);
         } else if (child.sound && names_.is_solid(object)) {
-            child.visit = Visit::done;  // the same as entering and closing it
+            child.visit = Visit::done;  // has the same effect as enter() and close()
             add_below(parent.object, child);
         } else if (enter(object)) {
             return Level{};
@@ -237,7 +239,7 @@ private:
             found_.full() ? std::string() : did_you_mean_object(scene_, missing.object));
     }
 
-    /// Closes an object: everything below it is known.
+    /// Ends the visit of an object, whose members are all done.
     void close(std::uint32_t object) {
         Reached& reached = objects_[object];
         reached.visit = Visit::done;
@@ -259,7 +261,7 @@ private:
         objects_[parent].height = std::max(objects_[parent].height, child.height);
     }
 
-    /// Reports the first object that has too many.
+    /// Reports too many instances, only for the first such object.
     void report_too_many(const Place& place, const std::string& what, std::uint64_t count) {
         if (!too_many_reported_) found_.add(instance_limit_.fault(place, what, static_cast<double>(count)));
         too_many_reported_ = true;
@@ -283,7 +285,7 @@ private:
         add(back.place, "'" + back.object + "' contains itself: " + cycle + back.object, "take one of these legs out");
     }
 
-    /// Reports combinations without a tree; BRL-CAD's objects without an inside are such, too. Flattening reports
+    /// Reports combinations without a tree, which BRL-CAD's objects without volume become, too. Flattening reports
     /// regions.
     void report_empty() {
         for (std::uint32_t i = 0; i < objects_.size(); ++i) {
@@ -345,9 +347,9 @@ private:
     Walk<Level> walk_;
     FindingList found_;
     std::vector<Warning> warnings_;
-    std::vector<std::pair<std::size_t, std::uint32_t>> counted_;  ///< indices of warnings, and the objects whose
-                                                                  ///< members they count
-    std::unordered_map<std::string, std::size_t> missing_;        ///< names, and their warnings
+    std::vector<std::pair<std::size_t, std::uint32_t>> counted_;  ///< a warning's index, and the object whose members
+                                                                  ///< it counts
+    std::unordered_map<std::string, std::size_t> missing_;        ///< for each missing name: its warning's index
     const Report report_ = [this](const Place& place, std::string message, std::string suggestion) {
         add(place, std::move(message), std::move(suggestion));
     };

@@ -1,4 +1,4 @@
-// Validation with an index of names that exists already.
+// Validation, for callers that already have an index of names.
 #pragma once
 
 #include <string>
@@ -13,13 +13,13 @@ namespace csgrt {
 /// The result of a validation.
 struct Validated {
     std::vector<Diagnostic> findings;
-    /// One an object: how many instances one transform of it expands to, everything below it included. 0 for
+    /// For each object: the number of instances to which one use of it expands, with all objects below it. 0 for
     /// combinations that no rendered object uses.
     std::vector<std::uint64_t> instances;
 };
 
-/// Validates, as csgrt::validate does, the scene of `names`. Objects that are left out are marked in `names`, and
-/// reported in `warnings`, to which the function appends.
+/// Validates a scene as csgrt::validate does. Marks objects that are left out in `names`, and appends their warnings to
+/// `warnings`.
 Validated validate(const Scene& scene, Names& names, const std::vector<std::string>& objects, bool skip_unsupported,
                    std::vector<Warning>& warnings, std::uint64_t max_instances = 0);
 

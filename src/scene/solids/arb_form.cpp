@@ -11,14 +11,15 @@ namespace csgrt {
 namespace {
 
 constexpr double most_uneven = 0.0005;          // millimetres
-constexpr double most_uneven_relative = 1e-6;   // of the arb's size, if that is less
-constexpr double least_depth_relative = 4e-12;  // above the depth that polyhedron.cpp takes for flat
-constexpr double cancelled = 1e-9;              // of the terms of a sum
+constexpr double most_uneven_relative = 1e-6;   // relative to the arb's size, if this gives less
+constexpr double least_depth_relative = 4e-12;  // relative to the arb's size; more than the depth below which
+                                                // polyhedron.cpp takes an arb for flat
+constexpr double cancelled = 1e-9;              // relative to a sum's terms: below this, the sum counts as 0
 
 double sum_of_sizes(const Vec3& v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); }
 
-/// Do all faces have the whole arb on one side, and turn the same way at each corner? The test is false for some convex
-/// arbs, too, but suffices for most arbs.
+/// A quick test, true only for convex arbs, and for most of them: does each face have the whole arb on one side, and
+/// turn in the same direction at each corner?
 bool plainly_convex(const Arb& arb) {
     constexpr double rounding = 1e-13;
     const auto& v = arb.vertices;
@@ -26,7 +27,7 @@ bool plainly_convex(const Arb& arb) {
     for (std::size_t i = 1; i < 8; ++i) size = std::max(size, sum_of_sizes(v[i] - v[0]));
     for (const auto& face : arb_face_vertices) {
         const Vec3 &a = v[face[0]], &b = v[face[1]], &c = v[face[2]], &d = v[face[3]];
-        if ((a == b && c == d) || (a == d && b == c)) continue;  // an edge or a point
+        if ((a == b && c == d) || (a == d && b == c)) continue;  // the face is an edge or a point
         const Vec3 ab = b - a, bc = c - b, cd = d - c, da = a - d, n = cross(c - a, d - b);
         const double steep = sum_of_sizes(n), slack = rounding * steep * size;
         if (!(steep > 1e-9 * size * size)) return false;
@@ -45,7 +46,7 @@ bool plainly_convex(const Arb& arb) {
     return true;
 }
 
-// Long double is needed: a face that is a sliver loses its plane to the rounding of doubles.
+// Vectors of long double: with doubles, rounding would tilt the plane of a narrow face too much.
 struct Wide {
     long double x = 0, y = 0, z = 0;
 };
@@ -59,13 +60,13 @@ Wide cross(const Wide& a, const Wide& b) {
 }
 long double length(const Wide& a) { return std::sqrt(dot(a, a)); }
 
-/// A face as an outline of different vertices; empty: it has no area.
+/// A face's outline, without repeated vertices. Empty if the face has no area.
 struct Outline {
     std::array<std::uint32_t, 4> corners{};
     std::size_t count = 0;
-    Wide normal;        ///< unit, of its widest triangle
-    Vec3 on;            ///< one of its corners
-    double height = 0;  ///< the least of the triangle's three
+    Wide normal;        ///< the unit normal of the outline's widest triangle
+    Vec3 on;            ///< a corner of this triangle
+    double height = 0;  ///< the least of this triangle's three heights
 
     double above(const Vec3& p) const { return static_cast<double>(dot(normal, from_to(on, p))); }
 };
@@ -80,7 +81,7 @@ Outline outline_of(const Arb& arb, std::size_t face) {
     }
     while (outline.count > 1 && outline.corners[0] == outline.corners[outline.count - 1]) --outline.count;
     const auto& c = outline.corners;
-    // The outline goes forth and back along one edge and then another.
+    // Four corners of which two opposite ones are the same: the outline goes along an edge and back, and has no area.
     if (outline.count < 3 || (outline.count == 4 && (c[0] == c[2] || c[1] == c[3]))) return {};
     return outline;
 }
@@ -93,7 +94,7 @@ void find_plane(const Arb& arb, Outline& outline) {
         const Vec3 &p = arb.vertices[c[i]], &q = arb.vertices[c[j]], &r = arb.vertices[c[k]];
         const Wide pq = from_to(p, q), qr = from_to(q, r), rp = from_to(r, p);
         const long double longest = std::max({length(pq), length(qr), length(rp)});
-        // The normal is computed from the two shorter sides: they round the least.
+        // The normal is computed from the two shorter sides: these have the least rounding errors.
         const Wide n = longest == length(pq) ? cross(qr, rp) : longest == length(qr) ? cross(rp, pq) : cross(pq, qr);
         const long double area = length(n);
         if (!(area > widest)) continue;
@@ -105,15 +106,15 @@ void find_plane(const Arb& arb, Outline& outline) {
     if (widest == 0) outline.count = 0;
 }
 
-/// The arb's form: all faces together, and the arb's size.
+/// All faces of an arb, and its size.
 struct Form {
     std::array<Outline, 6> faces;
     double size = 0;
     double rounding = 0;  ///< the distance by which rounding may move vertices
     bool is_flat = false, is_concave = false;
 
-    /// The distance from a face's plane up to which a vertex is in it. A face that is a sliver is tilted by the
-    /// rounding of its vertices.
+    /// The distance from a face's plane within which a vertex counts as in the plane. It is larger for a narrow face,
+    /// because its vertices' rounding tilts the plane.
     double depth_of(const Outline& face) const {
         return std::max(least_depth_relative * size, 4 * rounding * (1 + size / face.height));
     }
@@ -153,7 +154,7 @@ Form form_of(const Arb& arb) {
 bool crosses_itself(const Arb& arb, const Outline& face, double rounding) {
     if (face.count < 4) return false;
     const auto at = [&](std::size_t i) -> const Vec3& { return arb.vertices[face.corners[i % 4]]; };
-    // An edge's line separates two vertices if they lie on different sides of it, and neither is on it.
+    // Whether an edge's line separates two vertices: they lie strictly on different sides.
     const auto parts = [&](std::size_t edge, std::size_t p, std::size_t q) {
         const Wide along = from_to(at(edge), at(edge + 1)), side = cross(face.normal, along);
         const long double a = dot(side, from_to(at(edge), at(p))), b = dot(side, from_to(at(edge), at(q)));
@@ -167,7 +168,7 @@ bool crosses_itself(const Arb& arb, const Outline& face, double rounding) {
 bool is_concave(const Arb& arb) { return !plainly_convex(arb) && form_of(arb).is_concave; }
 
 bool is_without_volume(const Arb& arb) {
-    // Most arbs need only this test.
+    // This test suffices for most arbs.
     const auto& v = arb.vertices;
     double size = 0, rough = 0;
     for (std::size_t i = 1; i < 8; ++i) size = std::max(size, sum_of_sizes(v[i] - v[0]));
@@ -177,7 +178,7 @@ bool is_without_volume(const Arb& arb) {
     if (std::abs(rough) > 1e-9 * size * size * size) return false;
     const Form form = form_of(arb);
     if (!form.is_flat) return false;
-    // The areas of the faces in each plane, with their signs, cancel, and so do their first moments.
+    // An arb encloses nothing if in each plane the faces' signed areas cancel, and their first moments cancel, too.
     for (const Outline& plane : form.faces) {
         if (plane.count == 0) continue;
         const double near = form.depth_of(plane);

@@ -12,7 +12,7 @@ namespace {
 
 using Loop = std::vector<Vec3>;  // the corners of a face, in order around it
 
-/// A face in a sphere: most planes miss most faces, and one test of the sphere shows it.
+/// A face and a sphere around it. Most planes miss most faces, and a test of the sphere tells this quickly.
 struct Face {
     Loop loop;
     Vec3 center;
@@ -29,8 +29,8 @@ constexpr double reach_factor = 1e6;
 
 bool before(const Vec3& a, const Vec3& b) { return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z); }
 
-/// The point where the edge from p to q meets the plane, from their distances. The two faces that share the edge walk
-/// it in opposite directions and must get the same bits, so the two points are put in order first.
+/// The point where the edge from p to q meets a plane, from the points' distances to the plane. The two faces that
+/// share the edge have it in opposite directions and must get the same bits, so the two points are sorted first.
 Vec3 cut(Vec3 p, double p_distance, Vec3 q, double q_distance) {
     if (before(q, p)) {
         std::swap(p, q);
@@ -51,7 +51,7 @@ std::vector<Face> cube(const Vec3& center, double reach) {
     return faces;
 }
 
-/// The face that a cut makes: its corners in order around their middle.
+/// The new face that a cut makes: sorts its corners around their middle.
 Loop cap(const Vec3& normal, Loop corners) {
     std::sort(corners.begin(), corners.end(), before);
     corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
@@ -69,7 +69,7 @@ void clip(std::vector<Face>& faces, const Plane& plane) {
     Loop corners;
     bool lost = false;
     for (Face& face : faces) {
-        // Twice the radius is tested: rounding must not hide a corner that is outside.
+        // Twice the radius is tested: so that a corner outside is not missed by rounding.
         if (distance(face.center) < -2 * face.radius) continue;
         const Loop& loop = face.loop;
         if (std::none_of(loop.begin(), loop.end(), [&](const Vec3& p) { return distance(p) > 0; })) continue;
@@ -122,7 +122,8 @@ Polytope intersect_half_spaces(const std::vector<Plane>& planes) {
         return result;
     }
 
-    // The second clipping begins closely around the polytope, where the numbers are small.
+    // The planes are clipped again, from a box close around the polytope, so that numbers are small and rounding is
+    // less.
     const Vec3 center = 0.5 * (low + high);
     std::vector<Plane> near = planes;
     for (Plane& plane : near) plane.distance -= dot(plane.normal, center);

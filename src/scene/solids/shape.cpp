@@ -1,4 +1,5 @@
-// Shape: its functions that are compiled once, for all of its types.
+// Shape: functions of the type Shape that are compiled only here, because they instantiate code for all types of
+// solids.
 #include <csgrt/solids.hpp>
 
 namespace csgrt {

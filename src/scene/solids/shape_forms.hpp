@@ -293,7 +293,7 @@ inline constexpr auto of<Dsp> = Form{
     required("heights", &Dsp::heights, Cells{65535, false}, "Row by row from y = 0."),
 };
 
-// ---- Sketches. A curve's first key gives its type; the sketch keeps whether it is reversed. ----
+// ---- Sketches. A curve's first key tells its type; the sketch holds the flags of reversed curves. ----
 
 inline constexpr auto reversed = optional("reversed", nothing, flag, "Kept for conversion.");
 
@@ -315,7 +315,7 @@ inline constexpr auto of<Sketch::Arc> = Form{
     reversed,
 };
 
-/// The second form of an arc in a file: around `start`, through `end`.
+/// An arc's second form in a file: a circle around `start` through `end`.
 struct Circle {
     std::uint32_t start = 0, end = 0;
 };
@@ -367,7 +367,7 @@ inline Extrude usual() {
     return {.a = {1, 0, 0}, .b = {0, 1, 0}};
 }
 
-/// The rounding by which an angle may pass a full turn that it is computed to equal.
+/// The relative rounding error by which an angle may exceed a full turn.
 constexpr double turn_rounding = 1e-9;
 
 template <>

@@ -8,9 +8,10 @@ namespace csgrt {
 
 namespace {
 
-/// The distance below which points are one in BRL-CAD, millimetres.
+/// The distance in millimetres below which BRL-CAD takes two points for one.
 constexpr long double same_point = 0.0005L;
-/// The most loose ends for which gaps are searched, pair by pair; a sketch with more is not meant to be closed.
+/// The largest number of loose ends for which gaps are searched, pair by pair. A sketch with more is not meant to be
+/// closed.
 constexpr std::size_t gaps_to_close = 1000;
 
 struct Converter {
@@ -30,7 +31,7 @@ struct Converter {
         }
     }
 
-    /// Adds a circle around `center`, in quarters.
+    /// Adds a circle around `center`, in four parts.
     void circle(const CurvePoint& start, const CurvePoint& center) {
         long double x = start.u - center.u, y = start.v - center.v;
         CurvePoint from = start;
@@ -45,13 +46,15 @@ struct Converter {
         }
     }
 
-    /// Adds an arc. The angle phi runs from -alpha to alpha, 0 is the arc's middle. Points are computed from the chord,
-    /// not from the center, which may be far away: r (cos phi - cos alpha) to the side and r sin phi along it.
+    /// Adds an arc. The angle phi goes from -alpha to alpha, and is 0 in the arc's middle. Points are computed from the
+    /// chord, because the centre may be far away: r (cos phi - cos alpha) perpendicular to the chord, and r sin phi
+    /// along it.
     void arc(const CurvePoint& start, const CurvePoint& end, const Sketch::Arc& arc) {
         const long double x = end.u - start.u, y = end.v - start.v, chord = std::hypot(x, y), half = chord / 2;
         const long double r = std::max<long double>(arc.radius, half);
         const long double to_center = std::sqrt((r - half) * (r + half));
-        const bool minor = arc.center_left != arc.clockwise;  // counterclockwise the center is always to the left
+        const bool minor = arc.center_left != arc.clockwise;  // less than half a circle; then a counterclockwise arc's
+                                                              // centre is on the left
         const long double alpha = std::atan2(half, minor ? to_center : -to_center);
         const int count = std::max(1, static_cast<int>(std::ceil(4 * alpha / std::numbers::pi_v<long double> - 1e-9L)));
         const long double delta = alpha / count;
@@ -82,12 +85,12 @@ struct Converter {
         curves.push_back(std::move(curve));
     }
 
-    /// Adds a B-spline. A span's control points are the values of the curve's polar form at the span's limits (Ramshaw
-    /// 1987).
+    /// Adds a B-spline. The control points of each span are values of the curve's polar form at the span's two knots
+    /// (Ramshaw 1987).
     void operator()(const Sketch::Nurb& nurb) {
         const std::size_t degree = nurb.order - 1, count = nurb.points.size();
         const auto polar = [&](std::size_t span, const std::vector<double>& at) {
-            BezierCurve points;  // homogeneous
+            BezierCurve points;  // homogeneous coordinates
             for (std::size_t i = span - degree; i <= span; ++i) {
                 const CurvePoint p = vertex(nurb.points[i]);
                 const long double w = nurb.weights.empty() ? 1 : nurb.weights[i];
@@ -121,8 +124,8 @@ struct Converter {
         snap(curves.back().back(), vertex(nurb.points.back()));
     }
 
-    /// Makes the weights at both ends 1: with its weights multiplied by c s^i a curve keeps its shape, with another
-    /// parameter.
+    /// Makes the weights at both ends 1, by multiplying weight i by c s^i. This changes the parameter, not the curve's
+    /// shape.
     static void normalize(BezierCurve& curve) {
         const long double degree = static_cast<long double>(curve.size() - 1), scale = 1 / curve.front().weight;
         const long double pace = std::pow(curve.front().weight / curve.back().weight, 1 / degree);
@@ -134,7 +137,7 @@ struct Converter {
         curve.front().weight = curve.back().weight = 1;
     }
 
-    /// Moves an end onto a vertex if only rounding separates them.
+    /// Moves a curve's end onto a vertex if only rounding separates them.
     static void snap(CurvePoint& end, const CurvePoint& vertex) {
         const long double size = std::max(std::fabs(vertex.u), std::fabs(vertex.v));
         if (std::hypot(end.u - vertex.u, end.v - vertex.v) <= 1e-16L * size) end = vertex;

@@ -9,9 +9,10 @@ namespace csgrt {
 namespace {
 
 constexpr long double precision = 1e-16L;
-constexpr int deepest = 60;  // halvings; 30 bring the control points of a smooth curve within `precision` of it
+constexpr int deepest = 60;  // number of halvings; after 30 the control points of a smooth curve are within `precision`
+                             // of the curve
 
-/// The rational curve of the control points' positions along the direction, homogeneous.
+/// A curve's control points along the direction, in homogeneous coordinates.
 struct Values {
     std::vector<long double> value, weight;
 
@@ -35,7 +36,8 @@ struct Values {
     }
 };
 
-/// Raises `most` to the curve's greatest value: a curve lies within its control points' values, and its ends are on it.
+/// Raises `most` to the curve's greatest value, by halving the curve: no value is above the control points' greatest
+/// one, and the values at both ends are reached.
 void raise(long double& most, const Values& curve, long double slack, int depth) {
     most = std::max({most, curve.at(0), curve.at(curve.value.size() - 1)});
     if (curve.greatest() <= most + slack || depth == deepest) return;

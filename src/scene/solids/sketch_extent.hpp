@@ -1,4 +1,4 @@
-// Extent of curves in a direction of their plane.
+// Sketch extent: the extent of curves in a direction of their plane.
 #pragma once
 
 #include <utility>
@@ -8,7 +8,8 @@
 
 namespace csgrt {
 
-/// The least and the greatest gu u + gv v over all curves, from outside, to about 1e-15 of the terms.
+/// Bounds of the least and the greatest value of gu u + gv v on all curves. They are outer bounds, with errors of about
+/// 1e-15 of the terms.
 std::pair<long double, long double> extent_of(const std::vector<BezierCurve>& curves, long double gu, long double gv);
 
 }  // namespace csgrt

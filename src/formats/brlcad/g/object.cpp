@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::uint8_t magic_begin = 0x76, magic_end = 0x35;
 constexpr std::size_t unit = 8;
-constexpr std::uint8_t is_present = 0x20;  // in all three bytes of flags
+constexpr std::uint8_t is_present = 0x20;  // the same bit in all three bytes of flags
 
 struct Flags {
     std::uint8_t object, attributes, body;

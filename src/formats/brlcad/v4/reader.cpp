@@ -113,7 +113,7 @@ private:
             case 'm':
                 return tolerate_faults([&] { read_color(fields); });
             case 'F':
-                return;  // a free record
+                return;  // an unused record
             default:
                 break;
         }

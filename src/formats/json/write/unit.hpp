@@ -1,4 +1,4 @@
-// Unit: lengths in the unit of the file that is written.
+// Unit: converts lengths to the unit of the file that is written.
 #pragma once
 
 #include <cmath>

@@ -61,7 +61,7 @@ nlohmann::ordered_json write_value(const form::List<Item>& list, const std::vect
 nlohmann::ordered_json write_value(form::Corners, const auto& vertices, JsonUnit& unit) {
     return write_value(form::List{form::lengths}, std::vector<Vec3>(vertices.begin(), vertices.end()), unit);
 }
-/// Writes a face. A face of one loop is this loop.
+/// Writes a face. A face of one loop is written as the loop itself.
 nlohmann::ordered_json write_value(form::Loops, const std::vector<Nmg::Loop>& face, JsonUnit& unit);
 /// Writes curves. If the sketch has flags for reversed curves, the first curve always has the key "reversed".
 nlohmann::ordered_json write_value(form::Curves, const Sketch& sketch, JsonUnit& unit);
