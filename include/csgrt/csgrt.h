@@ -1,21 +1,23 @@
 // csgrt in C99: exact ray tracing of Constructive Solid Geometry. Functions and members have the names of the C++
-// headers beside this one, which say more of each; examples/partitions.c is a whole program.
+// headers in this folder, which describe them in more detail. examples/partitions.c is a whole program.
 //
 // Rules that hold unless a comment says otherwise:
 // - A call returns CSGRT_OK, or the kind of its failure. After a failure csgrt_last_error() has the text, a handle that
-//   the call would have made is NULL, and other results are not to be used. No C++ exception leaves a call.
-// - A handle that a call puts into a `csgrt_x**` is the caller's, who frees it with csgrt_x_free(), which takes NULL. A
-//   handle may be freed before handles that were made from it. Calls copy their arguments.
+//   the call would have made is NULL, and other results must not be used. No C++ exception leaves a call.
+// - The caller frees a handle that a call puts into a `csgrt_x**`, with csgrt_x_free(), which also takes NULL. A handle
+//   may be freed before handles that were made from it. Calls copy their arguments.
 // - A pointer that a call returns is valid as long as its handle, and until the next call that changes the handle.
-// - Structs that may grow begin with their size and with defaults, as in `csgrt_view view = CSGRT_VIEW;`, also those
-//   that calls fill. All defaults are at the end of this header. Of a shorter struct, from the header of an earlier
-//   version, the members that are not there have their defaults.
+// - Structs that may grow begin with their size. Initialize them with their defaults, as in `csgrt_view view =
+//   CSGRT_VIEW;`, also structs that calls fill. All defaults are at the end of this header. If a struct is shorter,
+//   because it is from the header of an earlier version, the missing members have their defaults.
 // - A pointer to several values has a count beside it; both may be 0. Text is UTF-8 and ends with 0; no text is "".
 // - Lengths are millimetres, angles degrees, z is up, matrices are 4 x 4, row by row, for column vectors. Distances
 //   along a ray are in lengths of its direction. Colours are red, green and blue, from 0 to 1.
-// - Threads. csgrt_model: any number at a time. csgrt_scene: any number that read it (as const), or one that changes
-//   it. csgrt_renderer, csgrt_edit, csgrt_partitions, csgrt_image, csgrt_verifier: one at a time, not always the same
-//   one; csgrt_renderer_model() and csgrt_renderer_set_model() may be called meanwhile.
+// - Threads. Any number of threads may use a csgrt_model at a time. Any number may read a csgrt_scene (as const), or
+// one
+//   thread may change it. One thread at a time, not always the same, may use a csgrt_renderer, csgrt_edit,
+//   csgrt_partitions, csgrt_image or csgrt_verifier; other threads may call csgrt_renderer_model() and
+//   csgrt_renderer_set_model() meanwhile.
 #ifndef CSGRT_CSGRT_H
 #define CSGRT_CSGRT_H
 
@@ -23,7 +25,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include <csgrt/version.hpp>  // macros alone in C
+#include <csgrt/version.hpp>  // in C only macros
 
 #ifndef CSGRT_API  // in C
 #define CSGRT_API
@@ -33,12 +35,12 @@
 extern "C" {
 #endif
 
-/// The version of the library that the program has loaded. CSGRT_VERSION_STRING is that of this header.
+/// The version of the library that the program has loaded. CSGRT_VERSION_STRING is this header's version.
 CSGRT_API const char* csgrt_version(void);
 
 // ---- Failures ----
 
-/// The kind of a failure: csgrt::Status, and `unexpected`, a fault of csgrt's own.
+/// The kind of a failure: csgrt::Status, and `unexpected`, which is a fault of csgrt itself.
 typedef enum csgrt_status {
     CSGRT_OK = 0,
     CSGRT_ERROR_UNEXPECTED = 1,
@@ -61,7 +63,7 @@ typedef struct csgrt_diagnostic {
     int line, column;                  ///< from 1; 0: unknown
     int64_t offset;                    ///< bytes; -1: unknown
     uint64_t count;                    ///< number of occurrences
-    int appearance;                    ///< 1: the fault changes colours alone
+    int appearance;                    ///< 1: the fault changes only colours
 } csgrt_diagnostic;
 
 /// The errors of the last call of this thread that failed: all diagnostics as text, and each of them. The pointers are
@@ -80,10 +82,11 @@ typedef struct csgrt_box {
 } csgrt_box;
 typedef struct csgrt_plane {
     csgrt_vec3 normal;
-    double distance;  ///< millimetres, from the origin, whatever the normal's length
+    double distance;  ///< millimetres from the origin, for any length of the normal
 } csgrt_plane;
 
-/// Called with `user` and the done fraction, on the calling thread. 0 ends the call (CSGRT_ERROR_INTERRUPTED).
+/// A function that is called with `user` and the done fraction, on the calling thread. If it returns 0, the call ends
+/// (CSGRT_ERROR_INTERRUPTED).
 typedef int (*csgrt_progress)(void* user, double done);
 
 // Values of the members precision and tolerance_rule, as csgrt/method.hpp has them.
@@ -99,13 +102,13 @@ enum {
     CSGRT_TOLERANCE_NONE = 3,
 };
 
-/// csgrt::Settings. NULL in place of a pointer to it: the defaults.
+/// csgrt::Settings. A NULL pointer stands for the defaults.
 typedef struct csgrt_settings {
     size_t size;
     /// Which device: its number in the list of devices, its type ("cpu", "gpu"), or part of its name or platform;
     /// several with commas between them, or all "gpus", share the work.
     const char* device;
-    /// The CPU reference computes, and no device.
+    /// The CPU reference computes, not a device.
     int reference;
     /// Calls wait until a GPU's kernels are compiled; else this processor computes until then, with the same bits.
     int wait_for_device;
@@ -114,12 +117,12 @@ typedef struct csgrt_settings {
     double device_timeout;
     /// Bytes of memory to use on each device; a frame that needs more is drawn in batches. 0: what the device has.
     uint64_t max_memory;
-    /// The largest number of instances: a solid that the trees use n times is n. They are counted before any is made. 1
-    /// to 20000000; 0: what docs/limits.md says.
+    /// The largest number of instances: a solid that the trees use n times counts n times. They are counted before any
+    /// is made. 1 to 20000000; 0: what docs/limits.md says.
     uint64_t max_instances;
-    /// Numbers of the geometry; single ones are relative to the eye.
+    /// Number type of the geometry; single precision is relative to the eye.
     int precision;
-    /// Which ends of segments along a ray count as one.
+    /// The rule by which boundaries of segments along a ray count as one point.
     int tolerance_rule;
     /// Millimetres along a ray, if tolerance_rule is a length; negative: the scene's.
     double tolerance;
@@ -150,21 +153,21 @@ typedef struct csgrt_device_info {
     const char* driver;
     /// "cpu", "gpu" or "accelerator".
     const char* type;
-    /// Bytes of all its memory.
+    /// Bytes of the device's memory.
     uint64_t memory;
-    /// Bytes of one buffer at most.
+    /// Largest number of bytes of one buffer.
     uint64_t max_allocation;
     unsigned compute_units;
     /// Whether it computes in double precision.
     int fp64;
 } csgrt_device_info;
 
-/// Finds all devices. Any thread. Then csgrt_device() on the same thread returns each; its texts are valid until the
-/// thread calls csgrt_devices() again.
+/// Finds all devices. Any thread. Then csgrt_device() on the same thread returns each device, whose texts are valid
+/// until the thread calls csgrt_devices() again.
 CSGRT_API csgrt_status csgrt_devices(size_t* count);
 CSGRT_API csgrt_status csgrt_device(size_t index, csgrt_device_info* info);
-/// Starts the search for devices on a thread of its own, and returns at once: called before a scene is loaded, it saves
-/// the wait.
+/// Starts the search for devices on another thread, and returns at once. Call it before a scene is loaded: then no
+/// later call waits for the search.
 CSGRT_API csgrt_status csgrt_prepare_devices(const csgrt_settings* settings);
 
 // ---- Scenes ----
@@ -183,7 +186,7 @@ typedef struct csgrt_load_options {
 /// Reads .json, .g or .asc. CSGRT_ERROR_FILE, or CSGRT_ERROR_SCENE with every error of the file. `options`: NULL for
 /// the defaults.
 CSGRT_API csgrt_status csgrt_load_scene(const char* path, const csgrt_load_options* options, csgrt_scene** scene);
-/// Reads the bytes of such a file. Errors call it `name`.
+/// Reads the bytes of such a file. Errors use `name` for the file.
 CSGRT_API csgrt_status csgrt_parse_scene(const void* bytes, size_t count, const char* name,
                                          const csgrt_load_options* options, csgrt_scene** scene);
 /// An empty scene.
@@ -191,9 +194,9 @@ CSGRT_API csgrt_status csgrt_scene_create(csgrt_scene** scene);
 CSGRT_API void csgrt_scene_free(csgrt_scene* scene);
 /// Writes .json.
 CSGRT_API csgrt_status csgrt_save_scene(const csgrt_scene* scene, const char* path);
-/// Returns CSGRT_OK, or CSGRT_ERROR_SCENE: csgrt_last_diagnostic() has every error in the objects and everything that
-/// they use. `objects` are names or paths; none: the scene's top objects. Of the settings, skip_unsupported and
-/// max_instances count.
+/// Returns CSGRT_OK, or CSGRT_ERROR_SCENE: then csgrt_last_diagnostic() has every error in the objects and in
+/// everything that they use. `objects` are names or paths; none: the scene's top objects. Of the settings, only
+/// skip_unsupported and max_instances have an effect.
 CSGRT_API csgrt_status csgrt_validate(const csgrt_scene* scene, const char* const* objects, size_t object_count,
                                       const csgrt_settings* settings);
 
@@ -202,16 +205,16 @@ CSGRT_API csgrt_status csgrt_validate(const csgrt_scene* scene, const char* cons
 typedef struct csgrt_member {
     const char* name;
     const double* values;   ///< a number, a vector, or a list of vectors: `columns` numbers each, one after the other
-    size_t count, columns;  ///< of all numbers; of a vector in a list, or 0 if the value is not a list of vectors
-    const char* json;       ///< in place of numbers, any value of JSON, such as "\"plate\""; NULL: the numbers
+    size_t count, columns;  ///< of all numbers; of each vector in a list, or 0 if the value is not a list of vectors
+    const char* json;       ///< in place of numbers, any value in JSON, such as "\"plate\""; NULL: `values` counts
 } csgrt_member;
 #ifndef __cplusplus
 /// In C, in a function: {CSGRT_MEMBER("center", 0, 0, 0), CSGRT_MEMBER("radius", 10)}
 #define CSGRT_MEMBER(name, ...) \
     { name, (const double[]){__VA_ARGS__}, sizeof((const double[]){__VA_ARGS__}) / sizeof(double), 0, NULL }
 #endif
-/// Adds a solid, with a type of the scene format: "sphere", "box", "cylinder", "ell", "tgc", ... CSGRT_ERROR_SCENE: the
-/// text names the fault of the type or the members.
+/// Adds a solid, with a type of the scene format: "sphere", "box", "cylinder", "ell", "tgc", ... If the
+/// type or a member is wrong, fails with CSGRT_ERROR_SCENE and names the fault.
 CSGRT_API csgrt_status csgrt_scene_add_solid(csgrt_scene* scene, const char* name, const char* type,
                                              const csgrt_member* members, size_t member_count);
 /// Adds a closed triangle mesh (a bot of mode `volume`). A face is three indices into the vertices.
@@ -226,30 +229,30 @@ typedef enum csgrt_operator {
     CSGRT_XOR = 4,
     CSGRT_NOT = 5,
 } csgrt_operator;
-/// A node of a Boolean tree in postfix order: an operator follows its `arity` operands. "ball" less "hole" is
+/// A node of a Boolean tree in postfix order: an operator follows its `arity` operands. "ball" without "hole" is
 /// {CSGRT_OBJECT("ball"), CSGRT_OBJECT("hole"), CSGRT_JOIN(CSGRT_DIFFERENCE, 2)}.
 typedef struct csgrt_tree_node {
     csgrt_operator op;
     uint32_t arity;        ///< of an operator
     const char* object;    ///< of a leaf: the name of a solid or a combination
     const double* matrix;  ///< of a leaf: 16 numbers, from the object's coordinates to the tree's; NULL: the identity
-    const char* name;      ///< of a leaf: its name in paths; NULL: the object's
+    const char* name;      ///< of a leaf: the leaf's name in paths; NULL: the object's name
 } csgrt_tree_node;
 
-/// csgrt::Finish, and its light.
+/// csgrt::Finish, with the members of csgrt::Emission.
 typedef struct csgrt_finish {
     size_t size;
     const char* shader;
     double specular, diffuse, ambient;
     int shine;
     double transmit, reflect;
-    int shines;  ///< 1: the region is a light, and the members below count
+    int shines;  ///< 1: the region is a light, and the members below have an effect
     double intensity, fraction, angle;
     const csgrt_vec3 *target, *direction;  ///< NULL: not given
     int infinite, visible, shadows;
 } csgrt_finish;
 
-/// csgrt::Combination: a Boolean tree under a name. With `region` it is one part of one material.
+/// csgrt::Combination: a named Boolean tree. With `region` it is one part, made of one material.
 typedef struct csgrt_combination {
     size_t size;
     const char* name;
@@ -262,7 +265,7 @@ typedef struct csgrt_combination {
 } csgrt_combination;
 CSGRT_API csgrt_status csgrt_scene_add_combination(csgrt_scene* scene, const csgrt_combination* combination);
 
-/// csgrt::Camera. NULL: not given.
+/// csgrt::Camera. Members that are NULL are not given.
 typedef struct csgrt_camera {
     size_t size;
     /// Degrees of the direction from the model to the eye: from +x about z.
@@ -273,11 +276,11 @@ typedef struct csgrt_camera {
     double perspective;
     /// The middle of the picture; the middle of the model's box if not given.
     const csgrt_vec3* center;  ///< NULL: not given
-    /// Height of the view at the middle of the picture; the diagonal of the model's box if not given. A parallel view
-    /// shows everything before its plane, however small it is.
+    /// Height of the view at the middle of the picture; the diagonal of the model's box if not given. A parallel view,
+    /// however small, shows everything before its plane.
     double view_size;  ///< 0: not given
-    /// Where the eye is, in place of azimuth and elevation, which have no effect then. With a perspective it gives the
-    /// size of the view, too; a parallel view takes only its direction from it.
+    /// The position of the eye, in place of azimuth and elevation, which have no effect then. With a perspective the
+    /// eye gives the size of the view, too; a parallel view takes only its direction from the eye.
     const csgrt_vec3* eye;  ///< NULL: not given
     /// Another name of the picture's middle.
     const csgrt_vec3* look_at;  ///< NULL: not given
@@ -287,7 +290,7 @@ typedef struct csgrt_camera {
 } csgrt_camera;
 CSGRT_API csgrt_status csgrt_scene_camera(const csgrt_scene* scene, csgrt_camera* camera);
 CSGRT_API csgrt_status csgrt_scene_set_camera(csgrt_scene* scene, const csgrt_camera* camera);
-/// Takes the camera from a script that MGED's `saveview` wrote.
+/// Sets the scene's camera from a script that MGED's `saveview` wrote.
 CSGRT_API csgrt_status csgrt_scene_load_view(csgrt_scene* scene, const char* path);
 
 typedef struct csgrt_light {
@@ -307,14 +310,14 @@ typedef struct csgrt_scene_info {
     const char *title, *units;
     double unit_length, ambient;
     csgrt_vec3 background;
-    double tolerance;  ///< millimetres; 0: by surfaces
+    double tolerance;  ///< millimetres; 0: as CSGRT_TOLERANCE_SURFACES
     int lenient;
-    size_t object_count, top_count, warning_count;  ///< csgrt_scene_set_info() leaves them as they are
+    size_t object_count, top_count, warning_count;  ///< csgrt_scene_set_info() ignores them
 } csgrt_scene_info;
 CSGRT_API csgrt_status csgrt_scene_get_info(const csgrt_scene* scene, csgrt_scene_info* info);
 CSGRT_API csgrt_status csgrt_scene_set_info(csgrt_scene* scene, const csgrt_scene_info* info);
-/// The name and the type of an object. The type is a solid's ("ell"), "region" or "combination". Either pointer may be
-/// NULL.
+/// The name and the type of an object. The type is a solid's type ("ell"), "region" or "combination". Either pointer
+/// may be NULL.
 CSGRT_API csgrt_status csgrt_scene_object(const csgrt_scene* scene, size_t index, const char** name, const char** type);
 CSGRT_API csgrt_status csgrt_scene_top(const csgrt_scene* scene, size_t index, const char** object);
 /// A fault that the file's reader tolerated; `pointer` names the object.
@@ -336,7 +339,7 @@ enum {  // fastgen
     CSGRT_FASTGEN_VOLUME = 2,
 };
 
-/// Validates and compiles. `objects` as in csgrt_validate(). CSGRT_ERROR_SCENE, CSGRT_ERROR_USAGE.
+/// Validates and compiles a scene. `objects`: as in csgrt_validate(). CSGRT_ERROR_SCENE, CSGRT_ERROR_USAGE.
 CSGRT_API csgrt_status csgrt_model_create(const csgrt_scene* scene, const char* const* objects, size_t object_count,
                                           const csgrt_settings* settings, csgrt_model** model);
 CSGRT_API void csgrt_model_free(csgrt_model* model);
@@ -381,11 +384,11 @@ CSGRT_API csgrt_status csgrt_model_finish(const csgrt_model* model, size_t regio
 /// csgrt::SolidInfo
 typedef struct csgrt_solid_info {
     size_t size;
-    /// The object's.
+    /// Name of the object.
     const char* name;
     /// BRL-CAD's name of the type: ell, tgc, arb8, and so on.
     const char* type;
-    /// From 0: which of the solids into which csgrt cuts a pipe.
+    /// Index, from 0, among the solids into which csgrt cuts a pipe.
     unsigned piece;
 } csgrt_solid_info;
 /// Fills `info` with the solid that has the id `index`.
@@ -403,7 +406,7 @@ typedef struct csgrt_ray {
 typedef struct csgrt_range {
     /// In lengths of the ray's direction.
     double t_near;
-    /// The same.
+    /// In lengths of the ray's direction.
     double t_far;
 } csgrt_range;
 
@@ -425,17 +428,17 @@ CSGRT_API csgrt_status csgrt_rays_parallel(const csgrt_box* box, int axis, int c
 /// Makes rays from an eye through a picture's pixels. `vertical_fov`: degrees.
 CSGRT_API csgrt_status csgrt_rays_pinhole(double vertical_fov, const csgrt_vec3* center, const csgrt_vec3* eye,
                                           const csgrt_vec3* up, int width, int height, csgrt_ray_grid* grid);
-/// The ray with the number row x columns + column.
+/// Returns the ray with the index row x columns + column.
 CSGRT_API csgrt_status csgrt_ray_grid_ray(const csgrt_ray_grid* grid, int column, int row, csgrt_ray* ray);
 
-/// Rays, their ranges, and the arrays that the call has to fill.
+/// Rays, their ranges, and the arrays that the call shall fill.
 typedef struct csgrt_rays {
     size_t size;
     const csgrt_ray* list;
     size_t count;
     const csgrt_ray_grid* grid;  ///< in place of the list
     csgrt_range range;           ///< of all rays, in lengths of their directions
-    const csgrt_range* ranges;   ///< in place of `range`, one a ray
+    const csgrt_range* ranges;   ///< in place of `range`, one for each ray
     size_t range_count;
     unsigned fields;  ///< of csgrt_partitions, besides regions and distances: CSGRT_FIELD_SOLIDS | ...
 } csgrt_rays;
@@ -446,13 +449,13 @@ enum {  // fields
     CSGRT_FIELD_WITHOUT_HIDDEN = 8,
 };
 
-/// Memory for everything along a list of rays, which the next call uses again.
+/// Memory for the partitions along a list of rays, which the next call reuses.
 typedef struct csgrt_partitions csgrt_partitions;
 CSGRT_API csgrt_status csgrt_partitions_create(csgrt_partitions** partitions);
 CSGRT_API void csgrt_partitions_free(csgrt_partitions* partitions);
 
-/// csgrt::Partitions: the rows of ray i are [ray_splits[i], ray_splits[i + 1]), in order of distance. Arrays without
-/// their field are NULL.
+/// csgrt::Partitions: ray i has the rows [ray_splits[i], ray_splits[i + 1]), in order of distance. Arrays whose field
+/// was not chosen are NULL.
 typedef struct csgrt_partition_arrays {
     size_t size;
     size_t ray_count, row_count, overlap_count, claimant_count;
@@ -466,15 +469,16 @@ typedef struct csgrt_partition_arrays {
     const int64_t* overlap_region_splits;        ///< (overlap_count + 1)
     const int32_t* overlap_region_ids;           ///< (claimant_count)
 } csgrt_partition_arrays;
-/// Returns the arrays, without a copy; valid until the next call that fills the handle.
+/// Returns the arrays, without a copy. They are valid until the next call that fills the handle.
 CSGRT_API csgrt_status csgrt_partitions_get(const csgrt_partitions* partitions, csgrt_partition_arrays* arrays);
 
-/// The first hits of rays, in the caller's memory: `count` elements in each array, one a ray. NULL: not wanted.
+/// The first hits of rays, in the caller's memory: `count` elements in each array, one for each ray. An array that is
+/// NULL is not filled.
 typedef struct csgrt_hits {
     size_t size;
     size_t count;
-    double* t_hit;                    ///< infinity: a miss
-    int32_t *region_ids, *solid_ids;  ///< -1: a miss; solid_ids, too, where the range begins inside the region
+    double* t_hit;                    ///< infinity: no hit
+    int32_t *region_ids, *solid_ids;  ///< -1: no hit; solid_ids also where the range begins inside the region
     csgrt_vec3* normals;              ///< zeros where the solid is -1
 } csgrt_hits;
 
@@ -490,44 +494,44 @@ typedef struct csgrt_slice {
     int width;
     /// Pixels.
     int height;
-    /// False: regions that pictures do not show (State) are not there.
+    /// False: regions that pictures do not show (State) are left out.
     int hidden;
 } csgrt_slice;
-/// The slice of a box by the plane n . p = offset, n being the unit vector of `normal`.
+/// The slice of a box by the plane n . p = offset, where n is the unit vector of `normal`.
 CSGRT_API csgrt_status csgrt_slice_of(const csgrt_box* box, const csgrt_vec3* normal, double offset, int width,
                                       int height, csgrt_slice* slice);
 
-// The calls below work on the calling thread alone: for single rays and short lists. The bits are those of a renderer
-// in double precision. CSGRT_ERROR_USAGE names the index of a ray that is invalid.
+// The calls below work only on the calling thread, for single rays and short lists. Their answers have the bits of a
+// renderer in double precision. CSGRT_ERROR_USAGE names the index of an invalid ray.
 
 CSGRT_API csgrt_status csgrt_model_partitions(const csgrt_model* model, const csgrt_rays* rays,
                                               csgrt_partitions* partitions);
 CSGRT_API csgrt_status csgrt_model_cast_rays(const csgrt_model* model, const csgrt_rays* rays, const csgrt_hits* hits);
-/// 1 for each of the `count` rays that meets a region within its range, else 0.
+/// Writes 1 for each of the `count` rays that meets a region within its range, else 0.
 CSGRT_API csgrt_status csgrt_model_occluded(const csgrt_model* model, const csgrt_rays* rays, uint8_t* answers,
                                             size_t count);
-/// The region that holds each of `count` points; -1: none.
+/// Finds the region that holds each of `count` points; -1: no region.
 CSGRT_API csgrt_status csgrt_model_region_at(const csgrt_model* model, const csgrt_vec3* points, int32_t* ids,
                                              size_t count);
-/// The region at each pixel, row by row from the top left; count = width x height. -1: none, -2: several, which
-/// overlap.
+/// Finds the region at each pixel, row by row from the top left; count = width x height. -1: no region; -2: several
+/// regions overlap.
 CSGRT_API csgrt_status csgrt_model_slice(const csgrt_model* model, const csgrt_slice* slice, int32_t* ids,
                                          size_t count);
 
 // ---- Renderers ----
 
-/// Draws and shoots on a device.
+/// Draws models and traces rays, on a device.
 typedef struct csgrt_renderer csgrt_renderer;
-/// CSGRT_ERROR_USAGE, CSGRT_ERROR_NO_DEVICE, CSGRT_ERROR_OUT_OF_MEMORY, CSGRT_ERROR_DEVICE_FAULT.
+/// Failures: CSGRT_ERROR_USAGE, CSGRT_ERROR_NO_DEVICE, CSGRT_ERROR_OUT_OF_MEMORY, CSGRT_ERROR_DEVICE_FAULT.
 CSGRT_API csgrt_status csgrt_renderer_create(const csgrt_model* model, const csgrt_settings* settings,
                                              csgrt_renderer** renderer);
-/// May wait for a driver that compiles, half a minute at most.
+/// May wait for a driver that is compiling, for half a minute at most.
 CSGRT_API void csgrt_renderer_free(csgrt_renderer* renderer);
 CSGRT_API csgrt_status csgrt_renderer_model(const csgrt_renderer* renderer, csgrt_model** model);
 CSGRT_API csgrt_status csgrt_renderer_set_model(csgrt_renderer* renderer, const csgrt_model* model);
 
-// The calls below do the same on the renderer's device. All may also fail with CSGRT_ERROR_OUT_OF_MEMORY,
-// CSGRT_ERROR_DEVICE_FAULT and CSGRT_ERROR_INTERRUPTED.
+// The calls below do the same as the calls on a model, on the renderer's device. They may also fail with
+// CSGRT_ERROR_OUT_OF_MEMORY, CSGRT_ERROR_DEVICE_FAULT and CSGRT_ERROR_INTERRUPTED.
 
 CSGRT_API csgrt_status csgrt_renderer_partitions(csgrt_renderer* renderer, const csgrt_rays* rays,
                                                  csgrt_partitions* partitions);
@@ -539,13 +543,14 @@ CSGRT_API csgrt_status csgrt_renderer_region_at(csgrt_renderer* renderer, const 
                                                 size_t count);
 CSGRT_API csgrt_status csgrt_renderer_slice(csgrt_renderer* renderer, const csgrt_slice* slice, int32_t* ids,
                                             size_t count);
-/// Called with `user`, the partitions of a batch, and the number of its first ray. 0 ends the call, without a failure.
+/// A function that is called with `user`, the partitions of a batch, and the index of the batch's first ray. If it
+/// returns 0, the call ends, without a failure.
 typedef int (*csgrt_take)(void* user, const csgrt_partitions* batch, uint64_t first_ray);
 /// Computes partitions in batches of at most `most` rays, for any number of rays.
 CSGRT_API csgrt_status csgrt_renderer_partitions_in_batches(csgrt_renderer* renderer, const csgrt_rays* rays,
                                                             uint64_t most, csgrt_take take, void* user);
 
-/// csgrt::Statistics: of the last call. Milliseconds and bytes.
+/// csgrt::Statistics of the last call, in milliseconds and bytes.
 typedef struct csgrt_statistics {
     size_t size;
     /// The device that computed, or "reference".
@@ -555,22 +560,22 @@ typedef struct csgrt_statistics {
     const char* awaited_device;
     /// "double", "single" or "quad".
     const char* precision;
-    /// A few words.
+    /// The numerical method, in a few words.
     const char* method;
-    /// Millimetres: the one that Settings::tolerance_rule gave.
+    /// The tolerance in millimetres, which Settings::tolerance_rule gave.
     double tolerance;
-    /// Of the picture, pixels; 0 for rays.
+    /// Width of the picture, pixels; 0 for rays.
     int width;
-    /// The same.
+    /// Height of the picture, pixels; 0 for rays.
     int height;
     uint64_t rays;
-    /// Of segments along all rays.
+    /// Number of boundaries of segments along all rays.
     uint64_t ends;
     /// Intervals of rays inside single solids.
     uint64_t segments;
-    /// Intervals between neighbouring ends of segments that are inside any solid.
+    /// Intervals between neighbouring boundaries that are inside any solid.
     uint64_t partitions_used;
-    /// For how many partitions there was memory.
+    /// Number of partitions for which memory was allocated.
     uint64_t partitions_allocated;
     /// Partitions that several regions of the same rank claim.
     uint64_t overlaps;
@@ -580,13 +585,13 @@ typedef struct csgrt_statistics {
     uint64_t segment_bytes;
     /// Memory for partitions, all batches.
     uint64_t partition_bytes;
-    /// Of rays.
+    /// Number of batches of rays.
     unsigned batches;
     /// Reading the scene's file; the command line sets it.
     double ms_load;
     /// Compiling the scene.
     double ms_compile;
-    /// Finding devices and compiling all kernels so far. A call that waits for that does not count it as `frame`.
+    /// Finding devices and compiling all kernels so far. A call that waits for this does not count the wait as `frame`.
     double ms_build;
     double ms_count_segments;
     double ms_scan;
@@ -597,7 +602,7 @@ typedef struct csgrt_statistics {
     double ms_rows;
     double ms_cull_tiles;
     double ms_first_hits;
-    /// In which kernels ran on a device, whether one or several at once.
+    /// Time in which kernels ran on a device, one or several at once.
     double ms_kernels;
     /// The whole call, on the host's clock.
     double ms_frame;
@@ -605,7 +610,7 @@ typedef struct csgrt_statistics {
     double ms_write;
 } csgrt_statistics;
 CSGRT_API csgrt_status csgrt_renderer_statistics(const csgrt_renderer* renderer, csgrt_statistics* statistics);
-/// csgrt::Renderer::device_warnings(), beside those of the model (csgrt_model_warning).
+/// csgrt::Renderer::device_warnings(), which the model's warnings (csgrt_model_warning) do not have.
 CSGRT_API csgrt_status csgrt_renderer_device_warning_count(const csgrt_renderer* renderer, size_t* count);
 CSGRT_API csgrt_status csgrt_renderer_device_warning(const csgrt_renderer* renderer, size_t index,
                                                      csgrt_diagnostic* warning);
@@ -643,18 +648,18 @@ typedef struct csgrt_view {
     int every_partition;
     /// The groups of channels that the picture has, a bit each.
     unsigned channels;
-    /// Up to six planes: what is beyond any of them is gone.
+    /// Up to six planes, which cut away everything beyond them.
     const csgrt_plane* clip;
     size_t clip_count;
-    /// The pixels that the picture has alone, each as in the whole.
+    /// The only pixels that are drawn, each as in the whole picture.
     const csgrt_pixel_rectangle* part;  ///< NULL: all of them
-    /// Rays a pixel, whose mean the colours are. 1 to 256.
+    /// Rays a pixel; the colours are their mean. 1 to 256.
     int samples;
     /// No background: red, green, blue and alpha are 0 where a ray hits nothing.
     int transparent;
 } csgrt_view;
 
-/// A picture's memory, which the next frame uses again.
+/// A picture's memory, which the next frame reuses.
 typedef struct csgrt_image csgrt_image;
 CSGRT_API csgrt_status csgrt_image_create(csgrt_image** image);
 CSGRT_API void csgrt_image_free(csgrt_image* image);
@@ -675,14 +680,14 @@ CSGRT_API csgrt_status csgrt_image_channel(const csgrt_image* image, const char*
                                            size_t* count);
 /// The ids of a channel of ids, without a copy: index + 1; 0: nothing.
 CSGRT_API csgrt_status csgrt_image_ids(const csgrt_image* image, const char* name, const uint32_t** ids, size_t* count);
-/// Copies channels of floats: of each pixel the values of all `names`; count = width x height x name_count.
+/// Copies channels of floats: for each pixel the values of all `names`; count = width x height x name_count.
 CSGRT_API csgrt_status csgrt_image_copy(const csgrt_image* image, const char* const* names, size_t name_count,
                                         float* values, size_t count);
-/// Copies the colours for a display: R G B A of each pixel, a byte each; count = width x height x 4. The picture has
-/// the channels of CSGRT_CHANNEL_COLOR or, faster, of CSGRT_CHANNEL_DISPLAY.
+/// Copies the colours for a display: R G B A of each pixel, a byte each; count = width x height x 4. The picture must
+/// have the channels of CSGRT_CHANNEL_COLOR or, faster, of CSGRT_CHANNEL_DISPLAY.
 CSGRT_API csgrt_status csgrt_image_display_pixels(const csgrt_image* image, unsigned char* bytes, size_t count);
 
-/// csgrt::Pick: what a picture shows at a pixel.
+/// csgrt::Pick: the hit that a picture shows at a pixel.
 typedef struct csgrt_pick {
     size_t size;
     int32_t region, solid;  ///< -1: nothing
@@ -692,13 +697,13 @@ typedef struct csgrt_pick {
 } csgrt_pick;
 CSGRT_API csgrt_status csgrt_model_pick(const csgrt_model* model, const csgrt_view* view, int column, int row,
                                         csgrt_pick* pick);
-/// The rays of a whole view, one a pixel.
+/// Makes the rays of a whole view, one for each pixel.
 CSGRT_API csgrt_status csgrt_model_grid_of(const csgrt_model* model, const csgrt_view* view, csgrt_ray_grid* grid);
 
 // ---- Edits ----
 
-/// csgrt::Edit: changes to a model, which make the next model at once. If a path leads nowhere the call fails, or
-/// csgrt_edit_commit() does.
+/// csgrt::Edit: changes to a model. csgrt_edit_commit() makes the next model with all of them. If a path leads to no
+/// object, the call fails, or csgrt_edit_commit() does.
 typedef struct csgrt_edit csgrt_edit;
 CSGRT_API csgrt_status csgrt_edit_create(const csgrt_model* model, csgrt_edit** edit);
 CSGRT_API void csgrt_edit_free(csgrt_edit* edit);
@@ -708,41 +713,41 @@ CSGRT_API csgrt_status csgrt_edit_set_state(csgrt_edit* edit, const char* path, 
 CSGRT_API csgrt_status csgrt_edit_set_lights(csgrt_edit* edit, const csgrt_light* lights, size_t count);
 CSGRT_API csgrt_status csgrt_edit_set_ambient(csgrt_edit* edit, double intensity);
 CSGRT_API csgrt_status csgrt_edit_set_background(csgrt_edit* edit, const csgrt_vec3* color);
-/// Sets the matrix of a path's last member. `share_all`: 1 for all instances that share the member, 0 for this instance
-/// alone.
+/// Sets the matrix of a path's last member. `share_all`: 1 for all instances that share the member, 0 for only this
+/// instance.
 CSGRT_API csgrt_status csgrt_edit_set_matrix(csgrt_edit* edit, const char* path, const double matrix[16],
                                              int share_all);
-/// Gives the solid `solid` the shape of a solid of a scene.
+/// Gives the model's solid `solid` the shape of the scene's solid `name`.
 CSGRT_API csgrt_status csgrt_edit_replace(csgrt_edit* edit, const char* solid, const csgrt_scene* scene,
                                           const char* name);
-/// Adds an object of a scene; `top`: 1: as one of the top objects.
+/// Adds a scene's object to the model. `top`: 1 makes it one of the top objects.
 CSGRT_API csgrt_status csgrt_edit_add(csgrt_edit* edit, const csgrt_scene* scene, const char* name, int top);
 /// Adds a member to a combination: its tree becomes tree `op` member. `matrix`: 16 numbers, or NULL.
 CSGRT_API csgrt_status csgrt_edit_add_leg(csgrt_edit* edit, const char* combination, csgrt_operator op,
                                           const char* object, const double* matrix);
 CSGRT_API csgrt_status csgrt_edit_remove(csgrt_edit* edit, const char* path);
-/// Makes the next model; the edits stay.
+/// Makes the next model. The edits stay in `edit`.
 CSGRT_API csgrt_status csgrt_edit_commit(const csgrt_edit* edit, csgrt_model** model);
 
 // ---- Verification ----
 
-/// csgrt::Verifier: compares a device with the reference, and both with 113-bit arithmetic.
+/// csgrt::Verifier: compares a device with the reference, and both of them with 113-bit arithmetic.
 typedef struct csgrt_verifier csgrt_verifier;
 CSGRT_API csgrt_status csgrt_verifier_create(const csgrt_scene* scene, const char* const* objects, size_t object_count,
                                              const csgrt_settings* settings, csgrt_verifier** verifier);
 CSGRT_API void csgrt_verifier_free(csgrt_verifier* verifier);
-/// Puts `count` rays into the caller's memory. `camera`: NULL for CSGRT_CAMERA.
+/// Makes `count` rays, in the caller's memory. `camera`: NULL for CSGRT_CAMERA.
 CSGRT_API csgrt_status csgrt_verifier_sample(const csgrt_verifier* verifier, const csgrt_camera* camera, uint64_t seed,
                                              csgrt_ray* rays, size_t count);
 CSGRT_API csgrt_status csgrt_verifier_shoot(csgrt_verifier* verifier, const csgrt_ray* rays, size_t count);
 
-/// A part of csgrt::Verification, for all rays so far.
+/// The main members of csgrt::Verification, for all rays so far.
 typedef struct csgrt_verification {
     size_t size;
-    const char* device;  ///< "": the reference alone is verified
+    const char* device;  ///< "": only the reference is verified
     uint64_t rays, hits, decided, ties, wrong, bit_differences, ends, leaping_ends;
     double largest_error, largest_ulps;  ///< of a boundary: millimetres along the ray, and units of the last place
-    uint64_t first_wrong;                ///< the number of the first wrong ray, if there is one
+    uint64_t first_wrong;                ///< the index of the first wrong ray, if there is a wrong ray
     csgrt_ray wrong_ray;                 ///< the first wrong ray
 } csgrt_verification;
 /// Fills the result, and returns CSGRT_OK if no ray is wrong and no bit differs, else CSGRT_ERROR_DIFFERS.
@@ -750,7 +755,8 @@ CSGRT_API csgrt_status csgrt_verifier_result(const csgrt_verifier* verifier, csg
 
 // ---- Defaults ----
 
-// The defaults are macros for C and C++, and functions for other languages: each puts the defaults into the struct.
+// The defaults are macros for C and C++, and functions for other languages: each function puts the defaults into a
+// struct.
 CSGRT_API void csgrt_diagnostic_init(csgrt_diagnostic* diagnostic);
 CSGRT_API void csgrt_settings_init(csgrt_settings* settings);
 CSGRT_API void csgrt_device_info_init(csgrt_device_info* device_info);

@@ -17,8 +17,8 @@
 // - Lengths and coordinates are millimetres, angles degrees, coordinates right-handed with z up. Distances along a ray
 //   are in units of the length of its direction.
 // - Functions that fail throw csgrt::Error, or std::bad_alloc.
-// - A function may be called by any thread, the functions of one object by one thread at a time. Several threads may
-//   read the same plain struct (Scene, Image, ...) at the same time.
+// - A function may be called by any thread, but the functions of one object by one thread at a time. Several threads
+//   may read the same plain struct (Scene, Image, ...) at the same time.
 // - Plain structs have a default for every member, so that designated initializers may leave out any of them. Later
 //   versions may add members.
 #pragma once

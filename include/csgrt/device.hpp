@@ -14,16 +14,16 @@ namespace csgrt {
 struct DeviceInfo {
     std::string name = {}, platform = {}, version = {}, driver = {};
     std::string type = {};             ///< "cpu", "gpu" or "accelerator".
-    std::uint64_t memory = 0;          ///< Bytes of all its memory.
-    std::uint64_t max_allocation = 0;  ///< Bytes of one buffer at most.
+    std::uint64_t memory = 0;          ///< Bytes of the device's memory.
+    std::uint64_t max_allocation = 0;  ///< Largest number of bytes of one buffer.
     unsigned compute_units = 0;
     bool fp64 = false;  ///< Whether it computes in double precision.
 };
 
 /// Returns every device, in the order of the numbers in Settings::device: the devices of OpenCL, and the native devices
-/// (platform "csgrt"), which are this machine's processors with kernels that csgrt brings itself. Empty if there is
-/// none. In a process that was forked after its parent had used a driver, only native devices are returned. If `notes`
-/// is not null, a sentence on each driver that cannot be used is appended to it. Any thread.
+/// (platform "csgrt"), which are this machine's processors with kernels that csgrt contains. Empty if there is no
+/// device. In a process that was forked after its parent had used a driver, only native devices are returned. Appends a
+/// sentence to `notes`, if it is not null, for each driver that cannot be used. Any thread.
 ///
 /// PoCL, an OpenCL driver for processors, fails or ends the process if it cannot write its cache: POCL_CACHE_DIR, else
 /// XDG_CACHE_HOME/pocl/kcache, else HOME/.cache/pocl/kcache. The library does not change the environment. A program
@@ -32,10 +32,10 @@ struct DeviceInfo {
 CSGRT_API std::vector<DeviceInfo> devices(std::vector<std::string>* notes = nullptr);
 
 /// Starts, on a thread of its own, the search for the devices that a Renderer with these settings will need, and
-/// returns at once. A driver takes some 30 ms to start: a program that calls this before it loads a scene spares its
-/// Renderer the wait. It does nothing if the settings need no driver (the reference, native devices, the default choice
-/// on a machine without a GPU), or if an earlier call has searched. A Renderer calls it before it compiles the scene.
-/// Any thread.
+/// returns at once. A driver takes some 30 ms to start, so a program should call this function before it loads a scene.
+/// The function does nothing if the settings need no driver (the reference, native devices, the default choice on a
+/// machine without a GPU), or if an earlier call has searched. A Renderer calls the function before it compiles the
+/// scene. Any thread.
 CSGRT_API void prepare_devices(const Settings& settings = {});
 
 }  // namespace csgrt

@@ -14,7 +14,7 @@
 
 namespace csgrt {
 
-/// The kind of a failure. Its value is the exit status of the command line.
+/// The kind of a failure. The values are the exit statuses of the command line.
 enum class Status : int {
     ok = 0,
     usage = 2,          ///< an option of the command line or an argument of the library is invalid
@@ -24,7 +24,7 @@ enum class Status : int {
     file = 6,           ///< a file cannot be read or written
     device_fault = 7,   ///< a device or its driver failed, or took too long
     differs = 8,        ///< a comparison or a verification found a difference
-    interrupted = 130,  ///< the user, or Settings::progress, stopped the call
+    interrupted = 130,  ///< the user or Settings::progress stopped the call
 };
 
 /// A place in a scene file. Text formats give `line` and `column`, binary formats give `offset`.
@@ -51,7 +51,7 @@ CSGRT_API std::string format(const Diagnostic& diagnostic);
 /// A fault that was tolerated: csgrt left a part out or replaced it, and uses the rest of the model unchanged.
 struct Warning {
     std::string object = {};  ///< the object's name; empty: the warning is about the whole file, or about a device
-    Place place = {};         ///< of the first occurrence; may be unknown
+    Place place = {};         ///< the place of the first occurrence; may be unknown
     std::string reason = {};  ///< the fault, and what csgrt did about it
     std::uint64_t count = 1;  ///< the number of occurrences
     bool appearance = false;  ///< true: the fault changes colours only, not what rays hit
@@ -60,7 +60,8 @@ struct Warning {
 /// "place: object: reason (N times)", on one line. Any thread.
 CSGRT_API std::string format(const Warning& warning);
 
-/// The exception of every function of csgrt that fails. `what()` holds all diagnostics as text, each of a line or more.
+/// The exception that every failing function of csgrt throws. `what()` holds all diagnostics as text, each on one line
+/// or more.
 class CSGRT_API Error : public std::runtime_error {
 public:
     /// An error with one diagnostic, which has this message and no place.

@@ -20,9 +20,9 @@ namespace csgrt {
 
 class Watch;
 
-/// The values of several channels, the same number of floats or whole numbers of 32 bits for each. All stand in one
-/// block of memory, one channel after the other, so that a GPU can copy a part of all channels at once. Copies are
-/// deep. Several threads may read at the same time, and may write to different values.
+/// The values of several channels: the same number of floats or of 32-bit whole numbers for each. All channels are in
+/// one block of memory, one after the other, so that a GPU can copy a part of all channels at once. Copies are deep.
+/// Several threads may read at the same time, and may write to different values.
 class CSGRT_API Channels {
 public:
     /// An object without channels.
@@ -31,7 +31,7 @@ public:
     /// Several threads write large channels. Throws std::bad_alloc.
     Channels(std::size_t size, std::span<const float> values);
     /// A copy of these channels. Throws Error (usage) if two channels have different numbers of values.
-    Channels(const std::vector<std::vector<float>>& channels);  // NOLINT: it is the same in another form
+    Channels(const std::vector<std::vector<float>>& channels);  // NOLINT: converts between two forms of the same data
     Channels(Channels&& other) noexcept { *this = std::move(other); }
     Channels(const Channels& other);
     Channels& operator=(Channels&& other) noexcept;
@@ -54,7 +54,7 @@ public:
         return {reinterpret_cast<const std::uint32_t*>(values_.get() + channel * size_), size_};
     }
 
-    /// True if the sizes are the same and all floats compare equal: no NaN equals another.
+    /// True if the sizes are the same and all floats are equal. A NaN equals nothing.
     CSGRT_API friend bool operator==(const Channels& a, const Channels& b) noexcept;
 
 private:
@@ -70,7 +70,7 @@ private:
     std::unique_ptr<float[], Free> values_;
 };
 
-/// A picture. Each channel has width x height values, row by row; the first is the TOP left pixel. They are floats,
+/// A picture. Each channel has width x height values, row by row; the first is the TOP left pixel. Values are floats,
 /// except for ids. A Renderer makes these channels, in this order, if View::channels has their group:
 ///
 ///     R G B           linear light, 0 to 1, more in highlights; the background where the ray hits nothing
@@ -88,8 +88,8 @@ private:
 /// Several threads may read one Image at the same time.
 struct Image {
     int width = 0, height = 0;            ///< pixels
-    std::vector<std::string> names = {};  ///< of the channels, one each
-    std::vector<bool> are_ids = {};       ///< of the channels: true: whole numbers, not floats; missing: false
+    std::vector<std::string> names = {};  ///< the names of the channels
+    std::vector<bool> are_ids = {};  ///< for each channel, true if it holds whole numbers, not floats; missing: false
     Channels channels = {};
     /// True: R G B are display values (sRGB), as Settings::display_shading makes them. False: linear light.
     bool display_values = false;
@@ -98,9 +98,9 @@ struct Image {
 
     /// Whether the picture has a channel of this name.
     CSGRT_API bool has_channel(std::string_view name) const noexcept;
-    /// The values of a channel by its name. They belong to this Image: keep it while they are used. An Image that is
-    /// about to be destroyed, such as the result of a call, has no such function. Throws Error (usage) if there is no
-    /// such channel, or it holds ids; the message names the picture's channels.
+    /// The values of a channel by its name. The Image must exist while the values are used, so a temporary Image, such
+    /// as the result of a call, has no such function. Throws Error (usage) if there is no such channel, or it holds
+    /// ids; the message names the picture's channels.
     CSGRT_API std::span<const float> channel(std::string_view name) const&;
     std::span<const float> channel(std::string_view name) const&& = delete;
     /// The ids of a channel by its name, under the same rules.

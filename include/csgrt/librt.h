@@ -1,11 +1,11 @@
-// librt's interface: programs that shoot rays by BRL-CAD's names (rt_dirbuild, rt_gettrees, rt_prep_parallel,
-// rt_shootray) compile with this header in place of raytrace.h, and csgrt answers. The definitions are csgrt's own, as
-// far as gqa, rtcheck, rtweight, rtxray, rtshot, rtexample and MOOSE use librt; docs/librt.md lists them. C++ alone.
-// Names that csgrt does not have are not declared: the compiler reports them.
+// librt's interface: programs that shoot rays with BRL-CAD's librt (rt_dirbuild, rt_gettrees, rt_prep_parallel,
+// rt_shootray) compile with this header in place of raytrace.h, and csgrt traces the rays. The definitions are csgrt's
+// own. They are the part of librt that gqa, rtcheck, rtweight, rtxray, rtshot, rtexample and MOOSE use; docs/librt.md
+// lists them. C++ only. Other names of librt are not declared, so the compiler reports them.
 //
-// Distances are in lengths of r_dir. The partitions are those of Renderer::shoot(), to the last bit: neighbours of one
-// region are one partition, and partitions that end behind the ray's start are left out. Any number of threads may
-// shoot, and callbacks may shoot.
+// Distances are in lengths of r_dir. The partitions are those of Renderer::shoot(), to the last bit: neighbouring parts
+// of one region become one partition, and partitions that end behind the ray's start are left out. Any number of
+// threads may shoot, and callbacks may shoot.
 #pragma once
 
 #ifndef __cplusplus
@@ -48,7 +48,7 @@ struct xray {
     fastf_t r_min = 0, r_max = 0;
 };
 
-/// One boundary of a partition. hit_point and hit_normal are filled from the start: RT_HIT_NORMAL copies.
+/// One boundary of a partition. hit_point and hit_normal are always filled; RT_HIT_NORMAL only copies.
 struct hit {
     fastf_t hit_dist = 0;
     point_t hit_point = {};
@@ -60,7 +60,7 @@ struct directory {
     const char* d_namep = "";
 };
 
-/// A solid. Where a decision about an overlap makes a boundary and no surface lies there, it is "?".
+/// A solid. It is "?" at a boundary that only a decision about an overlap makes, where no surface is.
 struct soltab {
     const char* st_name = "?";
     const directory* st_dp = nullptr;
@@ -77,7 +77,7 @@ struct mater_info {
     int ma_color_valid = 1;
 };
 
-/// A link of a ring; each linked struct begins with one.
+/// A link of a ring. Each linked struct begins with a link.
 struct bu_list {
     bu_list *forw = nullptr, *back = nullptr;
 };
@@ -88,12 +88,12 @@ struct bu_list {
 
 /// A region of the prepared model.
 struct region {
-    bu_list l = {};             ///< in rt_i::HeadRegion
-    const char* reg_name = "";  ///< its path, which no other region has
+    bu_list l = {};             ///< link in the ring rt_i::HeadRegion
+    const char* reg_name = "";  ///< the region's path, which no other region has
     long reg_bit = 0;           ///< index into Model::regions() and rt_i::Regions
     int reg_regionid = 0, reg_aircode = 0, reg_gmater = 0, reg_los = 0;
     mater_info reg_mater = {};
-    void* reg_udata = nullptr;  ///< the caller's
+    void* reg_udata = nullptr;  ///< for the caller's data
 };
 
 /// A partition. All partitions of a ray are a ring through a head, which is not a partition.
@@ -105,7 +105,7 @@ struct partition {
     char pt_inflip = 0, pt_outflip = 0;  ///< normals are outward, so nothing is flipped
 };
 
-/// librt's scratch memory of a thread. csgrt does not use it: each thread has its own.
+/// librt's scratch memory of a thread. csgrt does not use it, because its threads have their own memory.
 struct resource {
     int re_cpu = 0;
 };
@@ -113,7 +113,7 @@ inline resource rt_uniresource;
 #define RESOURCE_NULL (static_cast<struct resource*>(nullptr))
 #define MAX_PSW 1024
 
-/// The regions that claim a part of a ray; a handler removes those that do not get it.
+/// The regions that claim a part of a ray. A handler removes the regions that do not get the part.
 struct bu_ptbl {
     region** buffer = nullptr;
     size_t end = 0;  ///< number of regions
@@ -133,27 +133,27 @@ struct db_i {
     double dbi_local2base = 1, dbi_base2local = 1;  ///< millimetres in one of the file's units, and the inverse
 };
 
-/// A model: made by rt_dirbuild(), prepared by rt_prep_parallel(), or by the first ray.
+/// A model. rt_dirbuild() makes it; rt_prep_parallel() or the first ray prepares it.
 struct rt_i {
     point_t mdl_min = {}, mdl_max = {};  ///< the model's box, millimetres
     int useair = 0;                      ///< other than 0: regions of air are part of the model; before rt_prep
     std::atomic<int> needprep = 1;
     size_t nregions = 0, nsolids = 0;                 ///< before rt_prep nsolids is the number of added objects
     region** Regions = nullptr;                       ///< (nregions)
-    bu_list HeadRegion = {&HeadRegion, &HeadRegion};  ///< the same regions
+    bu_list HeadRegion = {&HeadRegion, &HeadRegion};  ///< a ring of the same regions
     db_i* rti_dbip = &database;
 
-    // Members of csgrt's own.
+    // csgrt's own members.
     csgrt::Scene scene;
     db_i database;
     bool asked = false;  ///< rt_gettree() was called
     std::vector<std::string> objects;
-    std::optional<csgrt::Model> model;                ///< none: there is nothing to hit
+    std::optional<csgrt::Model> model;                ///< empty: there is nothing to hit
     std::optional<csgrt::Renderer> renderer;          ///< for shoot_many()
     std::vector<std::optional<csgrt::Model>> layers;  ///< models with some of the regions; see layers_of()
     static constexpr size_t none = static_cast<size_t>(-1);
-    std::vector<size_t> layer;                  ///< one a region; empty: not needed yet
-    std::set<std::pair<size_t, size_t>> apart;  ///< regions that overlap on a ray: they have different layers
+    std::vector<size_t> layer;                  ///< for each region its layer; empty: not needed yet
+    std::set<std::pair<size_t, size_t>> apart;  ///< pairs of regions that overlap on a ray, and need different layers
     std::mutex mutex;                           ///< guards the preparation, `renderer` and the layers
     std::vector<region> regions;
     std::vector<region*> region_pointers;
@@ -163,17 +163,20 @@ struct rt_i {
 };
 #define RTI_NULL (static_cast<struct rt_i*>(nullptr))
 
-/// A ray to shoot, and the functions to call.
+/// A ray to shoot, and the functions to call with its answer.
 struct application {
     xray a_ray = {};
-    int (*a_hit)(application*, partition* head, seg*) = nullptr;  ///< if there are partitions; the list is empty
-    int (*a_miss)(application*) = nullptr;                        ///< if there is none
-    /// For two regions that claim a part of the ray. 0: neither gets it, 1: the first, 2: the second. Of three and
-    /// more, the function is called with the last winner and the next region. Null: the first gets it.
+    int (*a_hit)(application*, partition* head, seg*) = nullptr;  ///< called if there are partitions; the list of segs
+                                                                  ///< is empty
+    int (*a_miss)(application*) = nullptr;                        ///< called if there is no partition
+    /// Decides which of two regions gets a part of the ray that both claim. 0: neither of them, 1: the first, 2: the
+    /// second. For three and more regions, the function is called with the last winner and the next region. Null: the
+    /// first region gets the part.
     int (*a_overlap)(application*, partition*, region*, region*, partition* head) = nullptr;
-    /// In place of a_overlap: removes regions from the table, or sets them null. The first region left gets the part.
+    /// Decides in place of a_overlap: removes regions from the table, or sets them null. The first remaining region
+    /// gets the part.
     void (*a_multioverlap)(application*, partition*, bu_ptbl* regions, partition* head) = nullptr;
-    /// Called with each overlap before the other functions. Null: not called.
+    /// Called with each overlap before the other functions. May be null.
     void (*a_logoverlap)(application*, const partition*, const bu_ptbl* regions, const partition* head) = nullptr;
     /// 0: all partitions. n: the partitions of the first n boundaries; -n: of the first n boundaries of regions other
     /// than air.
@@ -183,8 +186,8 @@ struct application {
     const char* a_purpose = "";
     void* a_uptr = nullptr;
     int a_user = 0, a_level = 0, a_x = 0, a_y = 0, a_flag = 0;
-    fastf_t a_dist = 0, a_color[3] = {};  ///< the caller's
-    int a_return = 0;                     ///< what a_hit or a_miss returned
+    fastf_t a_dist = 0, a_color[3] = {};  ///< for the caller's data
+    int a_return = 0;                     ///< the result of a_hit or a_miss
 };
 inline void rt_silent_logoverlap(application*, const partition*, const bu_ptbl*, const partition*) {}
 #define RT_APPLICATION_INIT(ap) csgrt::librt::initialize(*(ap))
@@ -207,7 +210,7 @@ inline void rt_silent_logoverlap(application*, const partition*, const bu_ptbl*,
 #define PT_NULL (static_cast<struct partition*>(nullptr))
 #define REGION_NULL (static_cast<struct region*>(nullptr))
 
-// Names of libbu that the callbacks use.
+// Names of libbu that callbacks use.
 #ifndef UNUSED
 #define UNUSED(parameter) UNUSED_##parameter [[maybe_unused]]
 #endif
@@ -240,7 +243,7 @@ inline void bu_free(void* memory, const char*) { std::free(memory); }
 #define BU_ALLOC(pointer, type) ((pointer) = static_cast<type*>(bu_calloc(1, sizeof(type), #type)))
 
 #define BU_SEM_SYSCALL 0
-/// The mutex of a semaphore, 0 to 31; throws std::out_of_range beyond.
+/// The mutex of a semaphore, 0 to 31. Throws std::out_of_range for other numbers.
 inline std::mutex& csgrt_semaphore(int semaphore) {
     static std::array<std::mutex, 32> all;
     return all.at(static_cast<size_t>(semaphore));
@@ -248,7 +251,7 @@ inline std::mutex& csgrt_semaphore(int semaphore) {
 inline void bu_semaphore_acquire(int semaphore) { csgrt_semaphore(semaphore).lock(); }
 inline void bu_semaphore_release(int semaphore) { csgrt_semaphore(semaphore).unlock(); }
 
-// Names of vmath.h that programs that shoot rays use; its own definitions count if it is included before.
+// Names of vmath.h that programs that shoot rays use. If vmath.h is included before, its definitions hold.
 #ifndef VSET
 #define VSET(a, x, y, z) ((a)[0] = (x), (a)[1] = (y), (a)[2] = (z))
 #define VSETALL(a, s) VSET(a, s, s, s)
@@ -300,8 +303,8 @@ inline bool wants_overlaps(const application& ap) {
 inline Fields fields(bool overlaps) { return {.solids = true, .normals = true, .overlaps = overlaps}; }
 inline constexpr RayRanges whole_line{.all = {-std::numeric_limits<double>::infinity()}};
 
-/// Models that together have the regions of the ray's overlaps; none has two that overlap on a ray. Their surfaces are
-/// the prepared model's, to the last bit.
+/// Models that together have the regions of the ray's overlaps. No model has two regions that overlap on a ray. The
+/// bits of their surfaces are the prepared model's.
 inline std::vector<Model> layers_of(rt_i& rtip, const Partitions& all, std::size_t ray) {
     const std::lock_guard lock(rtip.mutex);
     std::vector<std::size_t>& layer = rtip.layer;
@@ -364,17 +367,18 @@ struct Piece {
 struct Answer {
     Partitions rows;
     std::vector<Piece> pieces, others;
-    std::vector<seg> segs;        // two a partition: for its in and its out
-    std::vector<partition> ring;  // the head, then one a part
+    std::vector<seg> segs;        // two for each partition, for its in and its out
+    std::vector<partition> ring;  // the head, then the partitions
     partition overlap;
     seg overlap_segs[2];
-    std::vector<region*> claimants;  // of the overlap
+    std::vector<region*> claimants;  // of the current overlap
     struct Surface {
         double t = 0;
         std::int32_t solid = -1;
-        Vec3 normal = {};  ///< against the ray
+        Vec3 normal = {};  ///< points against the ray
     };
-    std::vector<Surface> surfaces;  // of the ray's overlapping regions, each as if alone; empty: not computed yet
+    std::vector<Surface> surfaces;  // surfaces of the ray's overlapping regions, each computed as if alone; empty: not
+                                    // computed yet
     Partitions own;
 
     void start(const Partitions& all, std::int64_t first, std::int64_t last) {
@@ -427,7 +431,7 @@ struct Answer {
             }
         }
     }
-    /// The nearest of these surfaces within the model's tolerance.
+    /// The surface nearest to t, within the model's tolerance.
     Surface surface_at(const application& ap, double t) const {
         double nearest = ap.a_rt_i->model->tolerance() / MAGNITUDE(ap.a_ray.r_dir);
         Surface found;
@@ -440,7 +444,7 @@ struct Answer {
         return found;
     }
 
-    /// Gives the interval [in, out] of region `first` to region `next`; -1: to none.
+    /// Gives the interval [in, out] of region `first` to region `next`, or to no region if `next` is -1.
     void give(const application& ap, double in, double out, std::int32_t first, std::int32_t next) {
         others.clear();
         for (const Piece& piece : pieces) {
@@ -479,10 +483,10 @@ struct Answer {
         }
     }
 
-    /// The region that gets an overlap of `claimants`, two or more; null: none.
+    /// The region among `claimants`, two or more, that gets their overlap. Null: no region.
     region* decide(application& ap, double in, double out) {
         rt_i& rtip = *ap.a_rt_i;
-        const auto of = [&](const region* owner) {  // the overlap's partition, for an owner
+        const auto of = [&](const region* owner) {  // the overlap as a partition of `owner`
             fill(overlap, overlap_segs, rtip, ap.a_ray,
                  {{in, out}, static_cast<std::int32_t>(owner->reg_bit), {-1, -1}, {}});
             return &overlap;
@@ -545,7 +549,7 @@ struct Answer {
     }
 };
 
-/// The calling thread's next free Answer, reserved while this lives.
+/// Reserves the calling thread's next free Answer while it lives.
 class Borrowed {
 public:
     Borrowed() {
@@ -618,7 +622,7 @@ inline void prepare(rt_i& rtip, int threads) {
         rtip.region_pointers.push_back(&one);
     }
     rtip.Regions = rtip.region_pointers.data();
-    rtip.needprep = 0;  // set last: then other threads shoot
+    rtip.needprep = 0;  // set last, because other threads then shoot
 }
 
 inline rt_i& prepared(rt_i* rtip) {
@@ -630,8 +634,8 @@ inline rt_i& prepared(rt_i* rtip) {
     return *rtip;
 }
 
-/// Calls each(partition) for the ray's partitions in order, until it returns false. True: it was called for all. The
-/// first region of an overlap has the part. Any thread. Throws Error: usage.
+/// Calls each(partition) for the ray's partitions in order, until a call returns false. Returns true if no call did.
+/// The first region of an overlap gets the part. Any thread. Throws Error: usage.
 template <class Each>
 bool shoot(rt_i* rtip, const xray& ray, const Each& each) {
     if (!prepared(rtip).model) return true;
@@ -644,9 +648,9 @@ bool shoot(rt_i* rtip, const xray& ray, const Each& each) {
     return true;
 }
 
-/// Does for each ray, in order, what rt_shootray() does; all of the processor or the GPU trace. The application's
-/// functions are called with the ray in a_ray and its number in a_x. Returns for how many rays a_hit was called. Throws
-/// Error: usage, out_of_memory, device_fault.
+/// Does the same as rt_shootray() for each ray, in order, but all processors or the GPU trace. The application's
+/// functions are called with the ray in a_ray and its index in a_x. Returns the number of rays for which a_hit was
+/// called. Throws Error: usage, out_of_memory, device_fault.
 inline std::size_t shoot_many(application* ap, const xray* rays, std::size_t count) {
     rt_i& rtip = prepared(ap->a_rt_i);
     constexpr std::size_t most = 1 << 17;
@@ -679,8 +683,8 @@ inline int refuse(const char* where, const std::exception& error) {
 
 }  // namespace csgrt::librt
 
-/// Reads a model (.g, .asc, .json); its title goes into `title`, cut to `length`. RTI_NULL: it cannot be read, and
-/// standard error says why.
+/// Reads a model (.g, .asc, .json); `title` becomes the model's title, cut to `length`. RTI_NULL: the model cannot be
+/// read, and standard error has the reason.
 inline rt_i* rt_dirbuild(const char* file, char* title, int length) {
     try {
         auto rtip = std::make_unique<rt_i>();
@@ -695,7 +699,8 @@ inline rt_i* rt_dirbuild(const char* file, char* title, int length) {
     }
 }
 
-/// Adds an object, or a path to it, to those that rt_prep_parallel() prepares. Below 0: there is none of this name.
+/// Adds an object, by its name or a path to it, to the objects that rt_prep_parallel() prepares. Below 0: there is no
+/// such object.
 inline int rt_gettree(rt_i* rtip, const char* name) {
     rtip->asked = true;
     if (!csgrt::object_at(rtip->scene, name))
@@ -706,7 +711,7 @@ inline int rt_gettree(rt_i* rtip, const char* name) {
     return 0;
 }
 
-/// Adds several objects: all, or none, and then returns a number below 0.
+/// Adds several objects. If an object does not exist, adds none and returns a number below 0.
 inline int rt_gettrees(rt_i* rtip, int count, const char** names, int) {
     const std::size_t before = rtip->objects.size();
     for (int i = 0; i < count; ++i)
@@ -718,8 +723,9 @@ inline int rt_gettrees(rt_i* rtip, int count, const char** names, int) {
     return 0;
 }
 
-/// Compiles the added objects: nothing if rt_gettree() found nothing, and the scene's top objects if it was never
-/// called. `threads`: 0: one for each processor. Throws csgrt::Error (scene) where librt ends the process.
+/// Compiles the added objects. If rt_gettree() was called and found nothing, the model is empty; if it was never
+/// called, the scene's top objects are compiled. `threads` = 0: one for each processor. Throws csgrt::Error (scene)
+/// where librt ends the process.
 inline void rt_prep_parallel(rt_i* rtip, int threads) {
     const std::lock_guard lock(rtip->mutex);
     csgrt::librt::prepare(*rtip, threads);
@@ -741,7 +747,7 @@ inline int rt_shootray(application* ap) {
 inline void rt_init_resource(resource* of, int cpu, rt_i*) { of->re_cpu = cpu; }
 inline void rt_clean_resource(rt_i*, resource*) {}
 inline void rt_clean_resource_complete(rt_i*, resource*) {}
-/// Removes all objects and the prepared model; the next objects are added anew.
+/// Removes all objects and the prepared model, so that other objects can be added.
 inline void rt_clean(rt_i* rtip) {
     rtip->objects.clear();
     rtip->asked = true;

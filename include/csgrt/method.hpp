@@ -1,4 +1,4 @@
-// Methods: the numerical methods that a scene can be rendered with. The default of each is recommended.
+// Methods: the numerical methods for rendering a scene. The defaults are recommended.
 #pragma once
 
 #include <cstddef>
@@ -7,11 +7,11 @@
 
 namespace csgrt {
 
-/// The number type in which rays are intersected with solids. Devices and the reference have the first two.
+/// The number type in which rays are intersected with solids. The first two are on devices and on the reference.
 enum class Precision {
-    double_,  ///< 64-bit floats throughout
-    single,   ///< 32-bit floats relative to the eye: differences of doubles, rounded once
-    quad,     ///< 113 bits, on the reference only: shows the rounding errors of the others
+    double_,  ///< 64-bit floats for all numbers
+    single,   ///< 32-bit floats relative to the eye, which are differences of doubles, rounded once
+    quad,     ///< 113 bits, only on the reference: to find the rounding errors of the other types
 };
 
 /// The rule by which boundaries of segments along one ray count as the same point.
@@ -22,11 +22,10 @@ enum class Tolerance {
     relative,  ///< boundaries closer than relative_tolerance() times the diameter of a sphere around the bounded solids
     none,      ///< boundaries at equal distances only
 };
-/// The tolerance of Tolerance::relative: a share of the diameter of a sphere around the scene's bounded solids, without
-/// a unit.
+/// The tolerance of Tolerance::relative, as a fraction of the diameter of a sphere around the scene's bounded solids.
 constexpr double relative_tolerance(Precision precision) { return precision == Precision::single ? 1e-6 : 1e-9; }
-/// The distance that rounding may make if one surface is computed in two ways (a ball and the end of a part), as a
-/// share of the same diameter.
+/// The largest distance between two computations of one surface (for example of a ball, and of the same ball as a
+/// part's end), as a fraction of the same diameter.
 constexpr double rounding_tolerance(Precision precision) { return precision == Precision::single ? 1e-6 : 1e-12; }
 
 /// Names in the command line and in reports.
@@ -40,7 +39,7 @@ inline constexpr std::pair<std::string_view, Tolerance> tolerance_names[] = {
     {"none", Tolerance::none},
 };
 
-/// The name of a value in one of these tables; "" if it has none.
+/// The name of a value in one of these tables, or "".
 template <class Value, std::size_t count>
 constexpr std::string_view name_of(const std::pair<std::string_view, Value> (&names)[count], Value value) {
     for (const auto& [name, named] : names)

@@ -1,4 +1,4 @@
-// Model: a compiled scene, which Renderers draw and single rays meet.
+// Model: a compiled scene, which Renderers draw, and which can trace single rays itself.
 #pragma once
 
 #include <cstdint>
@@ -33,38 +33,38 @@ struct RegionInfo {
 
 /// One solid of the compiled model.
 struct SolidInfo {
-    std::string name = {};    ///< The object's.
+    std::string name = {};    ///< Name of the object.
     std::string type = {};    ///< BRL-CAD's name of the type: ell, tgc, arb8, and so on.
-    std::uint32_t piece = 0;  ///< From 0: which of the solids into which csgrt cuts a pipe.
+    std::uint32_t piece = 0;  ///< Index, from 0, among the solids into which csgrt cuts a pipe.
 };
 
-/// A compiled scene. It never changes: any number of threads may use it, and any number of Renderers draw it. A copy is
-/// the same model. A child of fork() may use its parent's.
+/// A compiled scene. It never changes, so any number of threads and Renderers may use it. Copies share the compiled
+/// model. A child of fork() may use a Model of its parent.
 class CSGRT_API Model {
 public:
     /// Validates and compiles `scene`, and keeps it for edits (see Edit). `objects` are names, or paths such as
-    /// "all.g/tor.r", which give an object the transform and the attributes that it has there; none: the scene's top
-    /// objects. Of the settings, the scene's own count (air, skip_unsupported, display_shading, max_instances), the
-    /// tolerance and `threads`. Throws Error: scene, usage.
+    /// "all.g/tor.r", whose object has the transform and the attributes of this instance; none: the scene's top
+    /// objects. Of the settings, only air, skip_unsupported, display_shading, max_instances, the tolerance and
+    /// `threads` have an effect. Throws Error: scene, usage.
     explicit Model(Scene scene, const std::vector<std::string>& objects = {}, const Settings& settings = {});
 
     // The references are valid as long as any copy of the Model.
 
-    /// The box around all regions' boxes, millimetres; low > high if no region is bounded.
+    /// The box around the boxes of all regions, in millimetres; low > high if no region is bounded.
     const Box& bounds() const;
-    /// The regions; their index is that of Partitions::region_ids.
+    /// The regions. Partitions::region_ids are indices into this list.
     const std::vector<RegionInfo>& regions() const;
-    /// The solids; their index is that of Partitions::in_solids.
+    /// The solids. Partitions::in_solids are indices into this list.
     const std::vector<SolidInfo>& solids() const;
     /// Faults that the scene's reader tolerated, objects that were left out, and other notes, each once per object and
-    /// reason. Pictures have the first of them in their attribute csgrt:warnings.
+    /// reason. The attribute csgrt:warnings of pictures has the first warnings.
     const std::vector<Warning>& warnings() const;
     /// Millimetres: boundaries along a ray that are closer than this count as one. See Settings::tolerance_rule.
     double tolerance() const;
-    /// The scene with all edits: a Model compiled from it is the same.
+    /// The scene with all edits. A Model compiled from it is the same as this one.
     Scene scene() const;
 
-    /// The rays of a whole view in double precision, one a pixel. Throws Error (usage).
+    /// The rays of a whole view in double precision, one for each pixel. Throws Error (usage).
     RayGrid grid_of(const View& view) const;
     /// The ray of a pixel of the picture, counted from its top left. Throws Error (usage).
     Ray ray_of(const View& view, int column, int row) const {
@@ -72,13 +72,13 @@ public:
         return grid_of(view).ray(part.left + column, part.top + row);
     }
 
-    /// The hit at a pixel, counted from the top left: to the last bit that of a picture in double precision. On the
-    /// calling thread, as the next five functions. Throws Error: usage, out_of_memory.
+    /// The hit at a pixel, counted from the top left. It has the bits of a picture in double precision. Computed on the
+    /// calling thread, as are the next five functions. Throws Error: usage, out_of_memory.
     Pick pick(const View& view, int column, int row) const;
 
-    // The next five functions do what a Renderer's do, on the calling thread alone: for single rays and short lists.
-    // The bits are those of a Renderer in double precision, with the settings of the Model. The native device's kernels
-    // trace, or the reference if there are none. They throw Error: usage, out_of_memory.
+    // The next five functions do the same as a Renderer's, but only on the calling thread, for single rays and short
+    // lists. Their answers have the bits of a Renderer in double precision with the settings of the Model. They use the
+    // native device's kernels, or the reference if these are missing. They throw Error (usage, out_of_memory).
 
     void partitions(const Rays& rays, Partitions& answer, Fields fields = {}, const RayRanges& ranges = {}) const;
     void cast_rays(const Rays& rays, Hits& answer, Fields fields = {}, const RayRanges& ranges = {}) const;

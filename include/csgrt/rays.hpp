@@ -1,4 +1,4 @@
-// Rays: lists of rays, grids of rays that devices make themselves, and the ranges of rays.
+// Rays: lists of rays, grids of rays, which devices make themselves, and the ranges of rays.
 #pragma once
 
 #include <cstddef>
@@ -14,23 +14,24 @@
 
 namespace csgrt {
 
-/// The ray origin + t x direction, t >= 0. Distances t along it are in units of the direction's length, which may be
-/// any but 0: millimetres if the direction is a unit vector. Limits has the range of both.
+/// The ray origin + t x direction, t >= 0. Distances t along it are in units of the direction's length, so they are
+/// millimetres if the direction is a unit vector. Limits tells which origins and directions are allowed.
 struct Ray {
     Vec3 origin = {};     ///< Millimetres.
     Vec3 direction = {};  ///< Of any length but 0.
 };
 
-/// What of a ray is asked for: t_near <= t <= t_far. From -infinity to infinity it is the whole line.
+/// The part of a ray that an answer covers: t_near <= t <= t_far. From -infinity to infinity it is the whole line.
 struct RayRange {
     double t_near = 0;                                       ///< In lengths of the ray's direction.
-    double t_far = std::numeric_limits<double>::infinity();  ///< The same.
+    double t_far = std::numeric_limits<double>::infinity();  ///< In lengths of the ray's direction.
 };
 
 /// The ranges of a list of rays.
 struct RayRanges {
     RayRange all = {};
-    std::span<const RayRange> each = {};  ///< one a ray, in place of `all`; empty: `all` counts
+    std::span<const RayRange> each = {};  ///< one range for each ray, in place of `all`; empty: `all` holds for every
+                                          ///< ray
 };
 
 /// Rays in rows and columns. Ray (column, row), counted from the top left, has the number row x columns + column, and
@@ -54,9 +55,9 @@ struct CSGRT_API RayGrid {
 
 enum class Axis { x, y, z };
 
-/// Makes parallel rays along an axis, upward in its coordinate, through the middles of the cells of a box's face. They
-/// start 1 mm before the box. Columns follow x, or y if the axis is x; the top row has the largest z, or y if the axis
-/// is z. Throws Error (usage) for an empty box and for numbers of rays below 1.
+/// Makes parallel rays in the positive direction of an axis, through the middles of the cells of a box's face. They
+/// start 1 mm before the box. Columns are along x, or along y if the axis is x. The top row has the largest z, or the
+/// largest y if the axis is z. Throws Error (usage) for an empty box and for numbers of rays below 1.
 CSGRT_API RayGrid rays_parallel(const Box& box, Axis axis, int columns, int rows);
 
 /// Makes rays from an eye through the middles of a picture's pixels, which are square. `vertical_fov`: degrees between
@@ -64,8 +65,8 @@ CSGRT_API RayGrid rays_parallel(const Box& box, Axis axis, int columns, int rows
 CSGRT_API RayGrid rays_pinhole(double vertical_fov, const Vec3& center, const Vec3& eye, const Vec3& up, int width,
                                int height);
 
-/// The rays of a call: the caller's list, which must outlive the call, or a grid. If all rays of a grid have one range,
-/// a device makes them itself, and nothing is copied.
+/// The rays of a call: the caller's list, which must outlive the call, or a grid. If all rays of a grid have the same
+/// range, the device makes the rays itself, and nothing is copied.
 class Rays {
 public:
     Rays() = default;
@@ -76,7 +77,7 @@ public:
 
     std::uint64_t size() const { return grid_ ? grid_->size() : list_.size(); }
     std::span<const Ray> list() const { return list_; }
-    /// The grid; null for a list.
+    /// The grid, or null for a list.
     const RayGrid* grid() const { return grid_ ? &*grid_ : nullptr; }
 
 private:
@@ -91,11 +92,12 @@ struct Slice {
     Vec3 right = {};            ///< From a pixel to the next one in its row, millimetres.
     Vec3 up = {};               ///< From a pixel to the next one in its column, millimetres.
     int width = 0, height = 0;  ///< Pixels.
-    bool hidden = true;         ///< False: regions that pictures do not show (State) are not there.
+    bool hidden = true;         ///< False: regions that pictures do not show (State) are left out.
 };
 
-/// The slice of a box by the plane n . p = offset; n is the unit vector of `normal`. It has square pixels, seen from
-/// the side to which the normal points, z up, or y up if the normal is along z. Throws Error (usage).
+/// The slice of a box by the plane n . p = offset; n is the unit vector of `normal`. The pixels are square. They are
+/// seen from the side to which the normal points, with z up, or with y up if the normal is along z. Throws Error
+/// (usage).
 CSGRT_API Slice slice_of(const Box& box, const Vec3& normal, double offset, int width, int height);
 
 }  // namespace csgrt

@@ -22,11 +22,11 @@
 
 namespace csgrt {
 
-/// Draws and shoots Models, on one device or on several that share the work. If the device is a GPU, its kernels are
-/// compiled on another thread while a native device computes (see Settings::wait_for_device); the GPU replaces the
-/// native device between two calls. Not copyable. One thread at a time; different Renderers may be used by different
-/// threads at the same time. In a child of fork() a Renderer of the parent throws Error (usage) at every call, and its
-/// destructor does nothing.
+/// Draws Models and traces rays through them, on one device or on several that share the work. If the device is a GPU,
+/// its kernels are compiled on another thread while a native device computes (see Settings::wait_for_device); the GPU
+/// replaces the native device between two calls. Not copyable. One thread at a time; different Renderers may be used by
+/// different threads at the same time. In a child of fork() a Renderer of the parent throws Error (usage) at every
+/// call, and its destructor does nothing.
 class CSGRT_API Renderer {
 public:
     /// Opens devices and copies the model to them. Settings of the scene have no effect here (see Model::Model). Throws
@@ -34,69 +34,73 @@ public:
     /// fails while it is made ready, the next call throws (device_fault, out_of_memory); if it was chosen by default,
     /// device_warnings() reports it.
     explicit Renderer(Model model, const Settings& settings = {});
-    /// Makes a Model of the scene, while it finds devices. Throws the errors of both.
+    /// Makes a Model of the scene, while it finds devices. Throws the errors of Model and of the other constructor.
     explicit Renderer(Scene scene, const std::vector<std::string>& objects = {}, const Settings& settings = {});
-    /// Waits until a driver that is compiling kernels has ended, up to half a minute, since no driver can be stopped.
-    /// Statistics::awaited_device tells whether there is one. A driver that caches its programs compiles once.
+    /// Waits up to half a minute for a driver that is compiling kernels, because no driver can be stopped.
+    /// Statistics::awaited_device tells whether a driver is compiling. A driver that caches its programs compiles them
+    /// once.
     ~Renderer();
-    /// Calls of a Renderer that was moved from throw Error (usage).
+    /// Functions of a Renderer that was moved from throw Error (usage).
     Renderer(Renderer&&) noexcept;
     Renderer& operator=(Renderer&&) noexcept;
 
     // The next two functions may be called by any thread, also while the Renderer works for another thread.
 
-    /// The Model of the last set_model(), or of the constructor. It has the regions, solids, bounds and warnings, and
-    /// the rays of a view.
+    /// The Model of the last set_model(), or of the constructor.
     Model model() const;
-    /// Sets the Model of the next calls. The first of them copies it to the devices, except tables that the last Model
-    /// has, too. A running call keeps its Model. Programs stay if they know the Model's types of solids, and so do
-    /// buffers; if a GPU's programs do not, a native device computes until they are compiled anew. If a call throws
-    /// since the Model does not fit (out_of_memory), the Renderer can still draw other Models. Throws Error (usage).
+    /// Sets the Model of the next calls. The first of these calls copies the Model to the devices, except tables that
+    /// the last Model has, too. A running call keeps its Model. Buffers are reused, and so are programs that support
+    /// the Model's types of solids. If a GPU's programs do not, a native device computes until they are compiled anew.
+    /// If a call throws because the Model does not fit (out_of_memory), the Renderer can still draw other Models.
+    /// Throws Error (usage).
     void set_model(Model model);
 
     /// Draws a picture. Throws Error: usage (the view), out_of_memory, device_fault, interrupted.
     Image render(const View& view);
-    /// Draws into memory that is used again, which is faster (see Framebuffer). Any Renderer may draw into it. With a
-    /// function `coarse`, the picture is drawn in four steps: every 8th pixel each way, every 4th, every 2nd and all,
-    /// none twice. `coarse` is called after the first three with 8, 4 and 2, the size of squares of one colour that the
-    /// framebuffer shows; it returns false to stop there. Throws as the other function does.
+    /// Draws into the memory of an earlier picture, which is faster (see Framebuffer). Several Renderers may draw into
+    /// one Framebuffer. With a function `coarse`, the picture is drawn in four steps: every 8th pixel in both
+    /// directions, every 4th, every 2nd and all, each pixel once. `coarse` is called after the first three steps with
+    /// 8, 4 and 2, the size in pixels of the squares of one colour that the framebuffer then shows. If `coarse` returns
+    /// false, the call stops there. Throws as the other function does.
     void render(const View& view, Framebuffer& framebuffer, const std::function<bool(int)>& coarse = {});
 
-    // Lists of rays in arrays, whose memory is used again. All functions throw Error: usage (a ray that Limits
+    // Lists of rays. The memory of the answers' arrays is reused. All functions throw Error: usage (a ray that Limits
     // excludes; the message has its index), out_of_memory, device_fault, interrupted.
 
-    /// Computes everything along each ray, within its range: the arrays of `fields`.
+    /// Computes the partitions along each ray, within its range, and the arrays that `fields` chooses.
     void partitions(const Rays& rays, Partitions& answer, Fields fields = {}, const RayRanges& ranges = {});
-    /// Computes partitions in batches of at most `most` rays, one after the other in the same arrays. `take` is called
-    /// with each batch and the number of its first ray, on one thread at a time; it returns false to end the call.
-    /// statistics() is of the last batch.
+    /// Computes partitions in batches of at most `most` rays, one after the other, in the same arrays. Calls
+    /// take(batch, index of the batch's first ray) on one thread at a time; if `take` returns false, the call ends.
+    /// statistics() is about the last batch.
     void partitions(const Rays& rays, const std::function<bool(const Partitions&, std::uint64_t)>& take,
                     Fields fields = {}, const RayRanges& ranges = {}, std::uint64_t most = 1'000'000);
-    /// Finds where each ray first meets a region, within its range. Of the fields, `overlaps` has no effect.
+    /// Finds the first hit of each ray with a region, within the ray's range. Fields::overlaps has no effect.
     void cast_rays(const Rays& rays, Hits& answer, Fields fields = {}, const RayRanges& ranges = {});
     /// Writes 1 for each ray that meets any region within its range, else 0.
     void occluded(const Rays& rays, Array<std::uint8_t>& answer, const RayRanges& ranges = {});
-    /// Finds the region that holds each point, in millimetres, or -1. A ray along x decides: of two regions that touch
-    /// at the point the region that begins has it, and of several that overlap the first.
+    /// Finds the region that holds each point, in millimetres, or -1. A ray along x decides: if two regions touch at
+    /// the point, the region that begins there holds it, and if several overlap, the first one does.
     void region_at(std::span<const Vec3> points, Array<std::int32_t>& answer);
-    /// Finds the region that holds each pixel's middle, row by row; a ray along its row decides. -1: none, -2: several,
-    /// which overlap.
+    /// Finds the region that holds each pixel's middle, row by row. A ray along the row decides. -1: no region; -2:
+    /// several regions overlap.
     void slice(const Slice& slice, Array<std::int32_t>& answer);
 
-    /// Computes for few rays everything along the whole lines, with all fields, as an object a ray, without partitions
-    /// that end at t < 0. The objects of many rays take 17 to 54 times as long as the tracing.
+    /// Computes partitions and overlaps along the whole lines of few rays, with all fields, as an object for each ray,
+    /// without partitions that end at t < 0. For many rays, making the objects takes 17 to 54 times as long as the
+    /// tracing.
     std::vector<RayPartitions> shoot(const std::vector<Ray>& rays);
 
-    /// Adds the meaning of the ids in the channels `region` and `solid` to a picture's header: the attributes
-    /// csgrt:regions and csgrt:solids, JSON texts such as {"17": "/all.g/x.r"}, of the ids that occur in the picture.
+    /// Adds the names of the ids in the channels `region` and `solid` to a picture's header. The attributes
+    /// csgrt:regions and csgrt:solids are JSON texts such as {"17": "/all.g/x.r"}, with the ids that occur in the
+    /// picture.
     void name_pixels(Image& image) const;
 
     // The references are valid as long as the Renderer.
 
     /// The statistics of the last call; before the first call, of the constructor.
     const Statistics& statistics() const;
-    /// Warnings about devices, beside the model's own: that the reference computes since there is no device, or that a
-    /// GPU cannot be used. Calls may append to them.
+    /// Warnings about devices, which the model's warnings do not have: for example that there is no device and the
+    /// reference computes, or that a GPU cannot be used. Calls may append warnings.
     const std::vector<Warning>& device_warnings() const;
 
 private:

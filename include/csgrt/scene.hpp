@@ -1,5 +1,5 @@
-// Scene: solids, combined by Boolean trees, some of which are regions; lights and a camera. Lengths are millimetres
-// throughout; readers convert a file's own units. Colours are display values (sRGB): red, green, blue; 0 to 1.
+// Scene: solids, Boolean combinations of them, of which some are regions, lights and a camera. All lengths are
+// millimetres; readers convert a file's own units. Colours are display values (sRGB): red, green, blue; 0 to 1.
 #pragma once
 
 #include <cstdint>
@@ -15,8 +15,8 @@
 
 namespace csgrt {
 
-/// BRL-CAD's name of a shape's type: "ell", "tgc", "arb8", ... An Unsupported has its own type, valid as long as the
-/// shape.
+/// BRL-CAD's name of a shape's type: "ell", "tgc", "arb8", ... An Unsupported has the name of its own type, which is
+/// valid as long as the shape.
 CSGRT_API const char* type_name(const Shape& shape);
 
 /// A solid and its name.
@@ -31,18 +31,18 @@ struct Solid {
 enum class Operator : std::uint8_t { leaf, union_, intersection, difference, xor_, not_ };
 
 /// One node of a tree in postfix order: an operator follows its `arity` operands. Union, intersection and xor take one
-/// operand or more, difference two or more (the first less all others), not exactly one.
+/// operand or more, difference two or more (the first one without all others), and not exactly one.
 struct TreeNode {
     Operator op = Operator::leaf;
     std::uint32_t arity = 0;   ///< operator: the number of operands
     std::string object = {};   ///< leaf: the name of a solid or a combination
-    Matrix matrix = identity;  ///< leaf: from the object's coordinates to those of the tree
+    Matrix matrix = identity;  ///< leaf: from the object's coordinates to the tree's
     Place place = {};          ///< in the file that it was read from
     /// Leaf: its name in paths (RegionInfo::path); no other leaf of the tree may have it. Empty: the object's name, and
-    /// a number from the second leaf of the object on, as in "wheel@2".
+    /// for the second and later leaves of the object a number, as in "wheel@2".
     std::string name = {};
 };
-/// A Boolean tree, as a list in postfix order, so that its depth costs no stack. Empty: the empty set.
+/// A Boolean tree, as a list in postfix order, so that no recursion is needed. An empty list is the empty set.
 struct Tree {
     std::vector<TreeNode> nodes = {};
 };
@@ -56,16 +56,17 @@ CSGRT_API Tree operator&(Tree a, Tree b);  ///< intersection
 CSGRT_API Tree operator-(Tree a, Tree b);  ///< difference: a without b
 CSGRT_API Tree operator^(Tree a, Tree b);  ///< exclusive or
 
-/// The light of a region whose shader is BRL-CAD's `light`. It comes from the centre of the region's box. If a rendered
-/// region has one, the scene has no light at the eye. Lights cast no shadows and do not fade with distance.
+/// The light of a region whose shader is BRL-CAD's `light`. The light comes from the centre of the region's box. If a
+/// rendered region has such a light, the scene has no light at the eye. Lights cast no shadows and do not fade with
+/// distance.
 struct Emission {
-    /// Brightness relative to other lights without a fraction; the brightest of them has 1 / (1 + half the scene's
-    /// ambient light) of full brightness.
+    /// Brightness relative to the other lights that have no `fraction`. The brightest of these has 1 / (1 + half the
+    /// scene's ambient light) of full brightness.
     double intensity = 1;
-    double fraction = 0;                 ///< share of full brightness, in place of `intensity`; 0: not given
-    double angle = 180;                  ///< between the beam's axis and its edge, degrees
+    double fraction = 0;                 ///< fraction of full brightness, in place of `intensity`; 0: not given
+    double angle = 180;                  ///< degrees between the beam's axis and its edge
     std::optional<Vec3> target = {};     ///< a point on the beam's axis
-    std::optional<Vec3> direction = {};  ///< of the beam's axis; default: -z of the region's first solid
+    std::optional<Vec3> direction = {};  ///< direction of the beam's axis; default: -z of the region's first solid
     bool infinite = false;               ///< true: infinitely far away, in the direction from the origin to the region
     bool visible = true;                 ///< false: the region is not drawn, and yields to every other region
     int shadows = 1;                     ///< kept for conversion
@@ -79,14 +80,15 @@ struct Finish {
     double ambient = 1.0;  ///< times Scene::ambient
     int shine = 10;
     double transmit = 0, reflect = 0;    ///< kept for conversion: pictures show first hits only
-    std::optional<Emission> light = {};  ///< of the shader "light": the region emits light, and is not shaded as
+    std::optional<Emission> light = {};  ///< for the shader "light": the region emits light, and is not shaded as
                                          ///< plastic
 };
 
-/// FASTGEN's kinds of regions. Where regions overlap, a plate yields to regions of no kind, and a volume to both.
+/// FASTGEN's kinds of regions. Where regions overlap, a region of no kind gets the part before a plate, and a plate
+/// before a volume.
 enum class Fastgen : std::uint8_t { none, plate, volume };
 
-/// A Boolean tree and its name. If it is a region, it is one part of one material.
+/// A Boolean tree and its name. A combination that is a region is one part, made of one material.
 struct Combination {
     std::string name = {};
     Tree tree = {};
@@ -94,7 +96,7 @@ struct Combination {
     Fastgen fastgen = Fastgen::none;
     int region_id = 0;               ///< BRL-CAD's identifier, for RegionColor
     int air = 0;                     ///< other than 0: a region of air
-    int material_id = 1;             ///< BRL-CAD's; kept for conversion
+    int material_id = 1;             ///< BRL-CAD's number; kept for conversion
     int los = 100;                   ///< BRL-CAD's percentage of the line of sight; kept for conversion
     std::optional<Vec3> color = {};  ///< red, green, blue; 0 to 1
     std::optional<Finish> finish = {};
@@ -106,17 +108,18 @@ using Object = std::variant<Solid, Combination>;
 
 // ---- Instances ----
 
-/// The visibility of a region in pictures. Partitions have all regions, unless the call leaves out those not shown.
-/// Booleans that use a region do not change with its state.
+/// The visibility of a region in pictures. Partitions have all regions, unless the call leaves out regions that are not
+/// shown. A region's state does not change the shapes of other regions.
 enum class State : std::uint8_t {
     shown,
-    ghost,  ///< as hidden, but a picture shows where it would be seen (channel::ghosts)
+    ghost,  ///< as hidden, but channel::ghosts shows where the region would be seen
     hidden  ///< pictures, picks and first hits pass through it
 };
 
 /// The appearance of the regions at a path, in place of their combinations' attributes.
 struct Look {
-    std::string path = {};  ///< as RegionInfo::path, or the beginning of such paths up to a '/': all regions below it
+    std::string path = {};  ///< a RegionInfo::path, or the beginning of such paths up to a '/', which stands for all
+                            ///< regions below
     std::optional<Vec3> color = {};  ///< red, green, blue; 0 to 1
     std::optional<Finish> finish = {};
     std::optional<State> state = {};
@@ -130,8 +133,8 @@ struct Light {
     Vec3 color{1, 1, 1};  ///< red, green, blue; 0 to 1
     double intensity = 1;
     bool infinite = false;     ///< true: infinitely far away, in the direction from the origin to `position`
-    double angle = 180;        ///< between the beam's axis and its edge, degrees
-    Vec3 direction{0, 0, -1};  ///< of the beam's axis; of any length but 0
+    double angle = 180;        ///< degrees between the beam's axis and its edge
+    Vec3 direction{0, 0, -1};  ///< direction of the beam's axis; of any length but 0
 };
 
 /// A row of BRL-CAD's colour table: regions with low <= region_id <= high get the colour.
@@ -146,43 +149,42 @@ struct Scene {
     std::string units = "mm";  ///< the file's unit, for conversion: all values here are millimetres
     double unit_length = 1;    ///< millimetres in one `units`
     Camera camera = {};
-    std::vector<Light> lights = {};  ///< none, and no region emits light: one light at the eye
+    std::vector<Light> lights = {};  ///< if empty, and no region emits light: one light at the eye
     double ambient = 0.4;            ///< intensity of the ambient light, which comes from the eye
     Vec3 background{0, 0, 0};        ///< red, green, blue; 0 to 1
-    /// Boundaries of segments that are closer to each other along a ray than this, in millimetres, are one point. 0:
-    /// boundaries on one surface are (Tolerance::surfaces). Readers of BRL-CAD's files set BRL-CAD's 0.0005.
+    /// Boundaries of segments that are closer to each other along a ray than this number of millimetres count as one
+    /// point. 0: boundaries on one surface do (Tolerance::surfaces). Readers of BRL-CAD's files set BRL-CAD's 0.0005.
     double tolerance = 0;
     std::vector<Object> objects = {};   ///< in the order of the file
     std::vector<std::string> top = {};  ///< the objects to render by default; empty: every object that no other object
                                         ///< uses
     std::vector<RegionColor> region_colors = {};
-    std::vector<Look> looks = {};  ///< if two concern one region, the later counts; one that concerns no region has no
+    std::vector<Look> looks = {};  ///< if two concern one region, the later one counts; looks of no region have no
                                    ///< effect
     /// True: an object that is missing, broken or of an unknown type is the empty set, with a warning. False: such a
     /// scene is refused. BRL-CAD's databases are lenient, as BRL-CAD's ray tracer is.
     bool lenient = false;
     std::vector<Warning> warnings = {};  ///< faults that the file's reader tolerated
 
-    /// The object of a name, or nullptr; valid until `objects` changes. Names are unique: readers refuse duplicates.
-    /// The search is linear.
+    /// The object with this name, or nullptr. Valid until `objects` changes. Names are unique: readers refuse
+    /// duplicates. The search is linear.
     CSGRT_API const Object* find(const std::string& name) const;
     CSGRT_API Object* find(const std::string& name);
 };
 
-/// The object of a name, or the object at the end of a path ("all.g/tor.r"), or nullptr; valid until `scene.objects`
-/// changes.
+/// The object with a name, or at the end of a path ("all.g/tor.r"), or nullptr. Valid until `scene.objects` changes.
 CSGRT_API const Object* object_at(const Scene& scene, const std::string& path);
 
 /// The name and the place of a solid or a combination; valid as long as the object.
 CSGRT_API const std::string& name_of(const Object& object);
 CSGRT_API const Place& place_of(const Object& object);
 
-/// The names of the objects that a Renderer renders by default: `scene.top`, or if it is empty the objects that no
+/// The names of the objects that a Renderer renders by default: `scene.top` or, if this is empty, the objects that no
 /// combination uses, in the order of the file.
 CSGRT_API std::vector<std::string> top_objects(const Scene& scene);
 
-/// Limits that validate() and Renderer enforce: far beyond real models, and far below what exhausts a machine or the
-/// range of its numbers. docs/limits.md has them in a table.
+/// Limits that validate() and Renderer enforce. They are far beyond real models, and far below sizes that exhaust a
+/// machine or the range of its numbers. docs/limits.md has a table of them.
 struct Limits {
     static constexpr std::uint32_t nesting = 1'000;              ///< combinations inside combinations
     static constexpr std::uint32_t file_nesting = 512;           ///< brackets inside brackets in a scene file
@@ -196,26 +198,26 @@ struct Limits {
     static constexpr std::uint32_t curve_degree = 12;            ///< of a Bezier or NURB curve
     static constexpr std::uint32_t pipe_points = 100'000;        ///< of one pipe
     static constexpr std::uint32_t metaball_points = 10'000;     ///< of one metaball
-    static constexpr double least_exponent = 0.01;               ///< of a superell: with less it is nearly a box
-    static constexpr double greatest_exponent = 20;              ///< of a superell: with more it is nearly its axes
-    static constexpr double length = 1e15;                       ///< millimetres: coordinates and sizes, transformed or
-                                                                 ///< not
-    static constexpr double least_length = 1e-15;                ///< millimetres: diagonal of a transformed solid's box
-    static constexpr double ray_origin = 1e18;                   ///< millimetres: coordinates of a ray's origin
-    static constexpr double least_direction = 1e-250;            ///< largest component of a ray's direction, at least
-    static constexpr double greatest_direction = 1e250;          ///< and at most
-    static constexpr int shine = 10'000;                         ///< of a finish: with more a highlight is a point
-    /// Points of an isopotential metaball: its fields never end, so its time grows with their square.
+    static constexpr double least_exponent = 0.01;               ///< of a superell: below it, the shape is nearly a box
+    static constexpr double greatest_exponent = 20;      ///< of a superell: above it, the shape is nearly its axes
+    static constexpr double length = 1e15;               ///< millimetres: coordinates and sizes, transformed or
+                                                         ///< not
+    static constexpr double least_length = 1e-15;        ///< millimetres: diagonal of a transformed solid's box
+    static constexpr double ray_origin = 1e18;           ///< millimetres: coordinates of a ray's origin
+    static constexpr double least_direction = 1e-250;    ///< largest component of a ray's direction, at least
+    static constexpr double greatest_direction = 1e250;  ///< and at most
+    static constexpr int shine = 10'000;                 ///< of a finish: above it, a highlight is a point
+    /// Points of an isopotential metaball: its fields have no end, so the time grows with the square of the number.
     static constexpr std::uint32_t isopotential_points = 1'000;
-    /// The part of its diameter by which an arc's chord may be longer: the arc is a half circle, and its radius had few
-    /// digits.
+    /// The fraction by which an arc's chord may exceed its diameter. Such an arc counts as a half circle whose radius
+    /// was given with few digits.
     static constexpr double half_circle = 1e-5;
 };
 
 /// Checks the objects of `objects` (names or paths; none: the top objects) and everything that they use: members that
 /// do not exist, cycles, degenerate solids, singular matrices, numbers that are not finite, trees. Returns every error;
-/// none: the model is valid. If `skip_unsupported`, solids of unknown types are the empty set (see Settings). Faults
-/// that only leave objects out are appended to `warnings`, if it is not null. `max_instances`: see Settings.
+/// none: the model is valid. If `skip_unsupported`, solids of unknown types are the empty set (see Settings). If
+/// `warnings` is not null, faults that only leave objects out are appended to it. `max_instances`: see Settings.
 CSGRT_API std::vector<Diagnostic> validate(const Scene& scene, const std::vector<std::string>& objects = {},
                                            bool skip_unsupported = false, std::vector<Warning>* warnings = nullptr,
                                            std::uint64_t max_instances = 0);

@@ -18,21 +18,21 @@ struct LoadOptions {
 };
 
 /// Reads a scene file. Its extension gives the format: .json (csgrt's own format, scenes/csgrt.schema.json), .g
-/// (BRL-CAD binary, v5) or .asc (BRL-CAD text, v4 and v5). For "-", which is standard input, and for devices and pipes
-/// the first bytes give it. Lengths are converted to millimetres.
+/// (BRL-CAD binary, v5) or .asc (BRL-CAD text, v4 and v5). For "-", which is standard input, and for devices and pipes,
+/// the first bytes give the format. Lengths are converted to millimetres.
 ///
 /// BRL-CAD's databases become lenient scenes, unless they are read strictly: an object that cannot be read becomes an
 /// Unsupported solid, with the reason, and other faults become Scene::warnings. A file of cells that the scene may not
 /// name is such a fault, whether the file exists or not.
 ///
-/// Throws Error: file if the file cannot be read, scene, with every error that was found, if its text is invalid,
-/// out_of_memory if the model does not fit. validate() checks the model itself. Any thread.
+/// Throws Error (file) if the file cannot be read, Error (scene) with every error if its text is invalid, and Error
+/// (out_of_memory). validate() checks the model itself. Any thread.
 CSGRT_API Scene load_scene(const std::string& path, const LoadOptions& options = {});
 
-/// Reads a scene from the bytes of a file; the first bytes give the format. Errors call the file `name`. Names of files
-/// of cells in it (of an ebm, vol or dsp) are relative to the folder of `name`, and the scene may name only those below
-/// LoadOptions::file_folders. The same holds for standard input, devices and pipes. Throws as load_scene() does. Any
-/// thread.
+/// Reads a scene from the bytes of a file; the first bytes give the format. Errors call the file `name`. If the scene
+/// names files of cells (of an ebm, vol or dsp), their names are relative to the folder of `name`, and they must be
+/// below LoadOptions::file_folders. The same holds for standard input, devices and pipes. Throws as load_scene() does.
+/// Any thread.
 CSGRT_API Scene parse_scene(std::string bytes, const std::string& name, const LoadOptions& options = {});
 
 /// Writes a scene as .json. Reading it gives the same model, bit for bit. The file has a temporary name until it is
@@ -40,7 +40,7 @@ CSGRT_API Scene parse_scene(std::string bytes, const std::string& name, const Lo
 CSGRT_API void save_scene(const Scene& scene, const std::string& path);
 
 /// Reads the view from a script that MGED's `saveview` wrote, as rt reads it: viewsize, orientation (or viewrot, ae,
-/// lookat_pt) and eye_pt, and the perspective of rt's option -p. If there are several frames, the first. Throws Error
+/// lookat_pt) and eye_pt, and the perspective of rt's option -p. Of several frames, the first one counts. Throws Error
 /// (file, scene). Any thread.
 CSGRT_API Camera load_view(const std::string& path);
 

@@ -13,10 +13,10 @@
 
 namespace csgrt {
 
-/// The half-space normal . p <= distance. The normal counts as a unit vector, whatever its length, and points outward.
+/// The half-space normal . p <= distance. The normal points outward. It stands for the unit vector of its direction.
 struct Plane {
     Vec3 normal = {};
-    double distance = 0;  ///< Millimetres, from the origin, whatever the normal's length.
+    double distance = 0;  ///< Millimetres from the origin, for any length of the normal.
 };
 
 // ---- Solids. Names and parameters are those of BRL-CAD (rtgeom.h in librt). ----
@@ -79,14 +79,14 @@ struct Rhc {
     double r = 0, c = 0;
 };
 /// Elliptical torus: an ellipse, turned about the axis n through v. The ellipse's centre has the distance r from the
-/// axis. Its semi-axis c is a vector in a plane through the axis; its other semi-axis, in that plane and perpendicular
-/// to c, has the length r_d.
+/// axis. Its semi-axis c is a vector in a plane through the axis. Its other semi-axis, in the same plane and
+/// perpendicular to c, has the length r_d.
 struct Eto {
     Vec3 v = {}, n = {}, c = {};
     double r = 0, r_d = 0;
 };
 /// Hyperboloid of one sheet between two equal ellipses with centres v and v + h. One of their semi-axes is the vector
-/// a, the other, perpendicular to it, has the length b. The ellipse in the middle is smaller by the factor `neck`,
+/// a; the other one, perpendicular to a, has the length b. The ellipse in the middle is smaller by the factor `neck`,
 /// which is between 0 and 1.
 struct Hyp {
     Vec3 v = {}, h = {}, a = {};
@@ -106,11 +106,11 @@ struct Hrt {
     Vec3 v = {}, x = {}, y = {}, z = {};
     double d = 0;
 };
-/// Metaball: the points where the sum of the fields of all points is the threshold or more. The field at the distance r
-/// from a point of strength s and softness w (BRL-CAD's sweat) is Method.
+/// Metaball: the points where the sum of the fields of all points is the threshold or more. Method gives the field at
+/// the distance r from a point of strength s and softness w (BRL-CAD's sweat).
 struct Metaball {
     enum class Method : std::uint8_t {
-        metaball,      ///< (1 - (r/s)^2)^2 for r < s; BRL-CAD has the name, but not the field
+        metaball,      ///< (1 - (r/s)^2)^2 for r < s; BRL-CAD has the name of this method, but not the field
         isopotential,  ///< s^2 / r^2
         blob           ///< exp(w - w (r/s)^2)
     };
@@ -132,8 +132,8 @@ struct Pipe {
     };
     std::vector<Point> points = {};
 };
-/// FASTGEN's cylinder from v to v + h. With a thickness greater than 0 it is a tube of that wall thickness, open at
-/// both ends; with 0 it is solid.
+/// FASTGEN's cylinder from v to v + h. With a thickness greater than 0 it is a tube with walls of this thickness, open
+/// at both ends; with 0 it is solid.
 struct Cline {
     Vec3 v = {}, h = {};
     double radius = 0, thickness = 0;
@@ -141,44 +141,45 @@ struct Cline {
 /// Triangle mesh.
 struct Bot {
     enum class Mode : std::uint8_t {
-        surface,     ///< no inside: each triangle is a skin of twice the scene's tolerance (0: 0.001 mm) along a ray
+        surface,     ///< encloses nothing: each triangle is a skin, along a ray twice the scene's tolerance thick
+                     ///< (0.001 mm if the tolerance is 0)
         volume,      ///< closed: a ray enters and leaves in turn; `orientation` matters only where the mesh has gaps
-        plate,       ///< each triangle is a plate of its thickness, or a skin if that is 0
-        plate_nocos  ///< the same as plate, with the thickness measured along the ray
+        plate,       ///< each triangle is a plate of its own thickness, or a skin if its thickness is 0
+        plate_nocos  ///< as plate, but the thickness is measured along the ray
     };
     enum class Orientation : std::uint8_t { unoriented, counterclockwise, clockwise };
     Mode mode = Mode::volume;
     Orientation orientation = Orientation::unoriented;
     std::vector<Vec3> vertices = {};
     std::vector<std::array<std::uint32_t, 3>> faces = {};  ///< three indices into `vertices` each
-    std::vector<double> thickness = {};                    ///< plates: millimetres, one a face
-    std::vector<std::uint8_t> append = {};  ///< plates: one a face; 1: the plate lies behind the face, 0: half on each
-                                            ///< side
+    std::vector<double> thickness = {};                    ///< plates: millimetres, one for each face
+    std::vector<std::uint8_t> append = {};  ///< plates: for each face 1: the plate is behind the face, or 0: half on
+                                            ///< each side
     std::vector<Vec3> normals = {};         ///< kept for conversion
     std::vector<std::array<std::uint32_t, 3>> face_normals = {};  ///< kept for conversion: indices into `normals`
 };
 /// Closed surface of triangles between neighbouring curves (BRL-CAD's "waterlines"), all with the same number of
 /// points.
 struct Ars {
-    std::vector<std::vector<Vec3>> curves = {};  ///< each is closed: its last point is joined to its first
+    std::vector<std::vector<Vec3>> curves = {};  ///< each curve is closed: its last point is joined to its first
 };
 /// Polyhedron with flat faces, each of one or more loops of vertices: the solid part of BRL-CAD's nmg.
 struct Nmg {
     using Loop = std::vector<std::uint32_t>;  ///< indices into `vertices`
     std::vector<Vec3> vertices = {};
-    std::vector<std::vector<Loop>> faces = {};  ///< the first loop of each is the outline, the others are holes
+    std::vector<std::vector<Loop>> faces = {};  ///< the first loop of each face is the outline, the others are holes
 };
-/// The cells of a picture, extruded. In its own coordinates a cell is 1 x 1 in x and y, and `height` millimetres high
-/// in z, from 0 on. `matrix` maps these coordinates to the model's.
+/// The cells of a picture, extruded. In the solid's own coordinates a cell is 1 x 1 in x and y, and goes from 0 to
+/// `height` millimetres in z. `matrix` maps these coordinates to the model's.
 struct Ebm {
     std::string file = {};               ///< the source of the cells, for conversion
     std::uint32_t width = 0, depth = 0;  ///< cells in x and in y
     double height = 0;
     Matrix matrix = identity;
-    std::vector<std::uint8_t> cells = {};  ///< width x depth, row by row from y = 0; other than 0: solid
+    std::vector<std::uint8_t> cells = {};  ///< width x depth, row by row from y = 0; a cell other than 0 is solid
 };
-/// The cells of a volume; cells with low <= value <= high are solid. Each is a box of the size `cell`. `matrix` maps
-/// them to the model's coordinates.
+/// The cells of a volume; cells with low <= value <= high are solid. Each cell is a box of the size `cell`. `matrix`
+/// maps the cells to the model's coordinates.
 struct Vol {
     std::string file = {};                           ///< the source of the cells, for conversion
     std::uint32_t width = 0, depth = 0, height = 0;  ///< cells in x, y and z
@@ -190,10 +191,15 @@ struct Vol {
 /// Terrain: heights at the points of a grid, solid down to z = 0. `matrix` maps grid steps and heights to the model's
 /// coordinates.
 struct Dsp {
-    enum class Cut : std::uint8_t { adaptive, lower_left, upper_left };  ///< which diagonal splits a cell
-    std::string file = {};                                               ///< the source of the heights, for conversion
-    std::uint32_t width = 0, depth = 0;                                  ///< points in x and in y
-    bool smooth = false;                                                 ///< kept for conversion
+    enum class Cut : std::uint8_t {
+        adaptive,
+        lower_left,
+        upper_left
+    };                                   ///< the rule for the diagonal that splits a
+                                         ///< cell
+    std::string file = {};               ///< the source of the heights, for conversion
+    std::uint32_t width = 0, depth = 0;  ///< points in x and in y
+    bool smooth = false;                 ///< kept for conversion
     Cut cut = Cut::adaptive;
     Matrix matrix = identity;
     std::vector<std::uint16_t> heights = {};  ///< width x depth, row by row from y = 0
@@ -207,7 +213,8 @@ struct Sketch {
     struct Line {
         std::uint32_t start = 0, end = 0;
     };
-    /// An arc from `start` to `end`; if the radius is negative, the full circle with centre `end` through `start`.
+    /// An arc the direction from `start` to `end`. If the radius is negative, the full circle around `end` through
+    /// `start`.
     struct Arc {
         std::uint32_t start = 0, end = 0;
         double radius = 0;
@@ -221,35 +228,35 @@ struct Sketch {
         std::uint32_t order = 0;
         std::vector<double> knots = {};
         std::vector<std::uint32_t> points = {};
-        std::vector<double> weights = {};  ///< one a point; empty: not rational
+        std::vector<double> weights = {};  ///< one for each point; empty: not rational
     };
     using Curve = std::variant<Line, Arc, Bezier, Nurb>;
-    std::string name = {};  ///< name of its object in the file; may be empty
+    std::string name = {};  ///< name of the sketch's object in the file; may be empty
     std::vector<Point> vertices = {};
     std::vector<Curve> curves = {};
-    std::vector<std::uint8_t> reversed = {};  ///< one a curve; 1: it runs from its end to its start
+    std::vector<std::uint8_t> reversed = {};  ///< for each curve, 1 if it goes from its end to its start
 };
 /// The area that a sketch encloses (by the even-odd rule), moved along h. The sketch's point (s, t) is v + s a + t b.
 struct Extrude {
     Vec3 v = {}, h = {}, a = {}, b = {};
     Sketch sketch = {};
 };
-/// The area that a sketch encloses, turned about the axis through v. The sketch's u runs along r, which is
-/// perpendicular to the axis, its v along the axis; both from the point v on.
+/// The area that a sketch encloses, turned about the axis through v. The sketch's u is along r, which is perpendicular
+/// to the axis, and its v is along the axis. Both begin at the point v.
 struct Revolve {
     Vec3 v = {}, axis = {}, r = {};
-    double angle = 0;  ///< radians; 2 pi: all round
+    double angle = 0;  ///< radians; 2 pi: a full turn
     Sketch sketch = {};
 };
-/// A solid of a type that csgrt does not support, or with missing parts. It is an error, or in a lenient scene the
-/// empty set, if a rendered object uses it.
+/// A solid of a type that csgrt does not support, or with missing parts. If a rendered object uses it, this is an
+/// error, or in a lenient scene the solid is the empty set.
 struct Unsupported {
     std::string type = {};    ///< BRL-CAD's name of the type
-    std::string reason = {};  ///< if csgrt supports the type, the missing part: its file of cells, its sketch
+    std::string reason = {};  ///< if csgrt supports the type: the missing part, for example a file of cells or a sketch
 };
 
-/// Any one of the solids: a variant (std::visit, std::get, std::holds_alternative). Its copying and destruction are
-/// compiled once, in the library, since they took a third of the time to compile a file that uses scenes.
+/// Any one of the solids: a variant (std::visit, std::get, std::holds_alternative). The functions that copy and destroy
+/// it are compiled in the library, because they took a third of the time to compile a file that uses scenes.
 struct CSGRT_API Shape
     : std::variant<Ell, Tgc, Arb, Arbn, Half, Tor, Ehy, Part, Epa, Rpc, Rhc, Eto, Hyp, Superell, Hrt, Metaball, Pipe,
                    Cline, Bot, Ars, Nmg, Ebm, Vol, Dsp, Extrude, Revolve, Unsupported> {

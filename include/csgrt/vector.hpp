@@ -5,7 +5,7 @@
 
 namespace csgrt {
 
-/// A point, a displacement or a direction; or a colour: red, green, blue.
+/// A point, a displacement, a direction, or a colour (red, green, blue).
 struct Vec3 {
     double x = 0, y = 0, z = 0;
     friend bool operator==(const Vec3&, const Vec3&) = default;
@@ -16,7 +16,7 @@ struct Vec3 {
 using Matrix = std::array<double, 16>;
 inline constexpr Matrix identity = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
 
-/// An axis-aligned box. It is empty if any coordinate of `low` is greater than that of `high`.
+/// An axis-aligned box. The box is empty if any coordinate of `low` is greater than the same coordinate of `high`.
 struct Box {
     Vec3 low = {}, high = {};
 };

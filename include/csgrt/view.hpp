@@ -17,12 +17,12 @@ inline constexpr std::uint32_t distance = 2;  ///< Z
 inline constexpr std::uint32_t normal = 4;    ///< N.X N.Y N.Z
 inline constexpr std::uint32_t ids = 8;       ///< region, solid
 inline constexpr std::uint32_t counts = 16;   ///< depth, partitions, overlap: only with View::every_partition
-inline constexpr std::uint32_t all = 31;      ///< of the groups above
+inline constexpr std::uint32_t all = 31;      ///< all groups above
 inline constexpr std::uint32_t display = 32;  ///< RGBA8: as in display_pixels()
 inline constexpr std::uint32_t ghosts = 64;   ///< ghost: the first ghost that the ray passes before the visible surface
 }  // namespace channel
 
-/// Some pixels of a picture, counted from the top left.
+/// A rectangle of a picture's pixels, counted from the top left.
 struct PixelRectangle {
     int left = 0, top = 0, width = 0, height = 0;
 };
@@ -35,13 +35,13 @@ struct View {
     /// partitions and overlap. A scene with plates (a bot of that mode) takes as long as if true.
     bool every_partition = true;
     std::uint32_t channels = channel::all;  ///< The groups of channels that the picture has, a bit each.
-    /// Up to six planes: what is beyond any of them is gone. They leave what half-spaces in the model's tree would
-    /// leave. What they cut open has the region's colour, the plane's normal and no solid. Counts include what is
-    /// beyond the planes that the ray leaves through. A plane's normal may have any length but 0.
+    /// Up to six planes, which cut away everything beyond them. They cut as half-spaces in the model's tree would.
+    /// Where a plane cuts a region open, a hit has the region's colour, the plane's normal and no solid. Counts include
+    /// solids beyond the planes through which the ray leaves. A plane's normal may have any length but 0.
     std::vector<Plane> clip = {};
-    std::optional<PixelRectangle> part = {};  ///< The pixels that the picture has alone, each as in the whole.
-    /// Rays a pixel, whose mean the colours are. 1 to 256, in a pattern that does not change. The other channels are
-    /// those of the ray through the pixel's middle.
+    std::optional<PixelRectangle> part = {};  ///< The only pixels that are drawn, each as in the whole picture.
+    /// Rays a pixel; the colours are their mean. 1 to 256, always in the same pattern. The other channels have the
+    /// values of the ray through the pixel's middle.
     int samples = 1;
     bool transparent = false;  ///< No background: red, green, blue and alpha are 0 where a ray hits nothing.
 };

@@ -24,7 +24,7 @@ template <>
 inline constexpr auto of<RayRange> = Form{
     plain("range"),
     optional("t_near", &RayRange::t_near, number, "In lengths of the ray's direction."),
-    optional("t_far", &RayRange::t_far, number, "The same."),
+    optional("t_far", &RayRange::t_far, number, "In lengths of the ray's direction."),
 };
 
 template <>
@@ -47,7 +47,7 @@ inline constexpr auto of<Slice> = Form{
     required("up", &Slice::up, vector, "From a pixel to the next one in its column, millimetres."),
     required("width", &Slice::width, integer, "Pixels."),
     required("height", &Slice::height, integer, "Pixels."),
-    optional("hidden", &Slice::hidden, flag, "False: regions that pictures do not show (State) are not there."),
+    optional("hidden", &Slice::hidden, flag, "False: regions that pictures do not show (State) are left out."),
 };
 
 template <>
@@ -63,11 +63,11 @@ inline constexpr auto of<PixelRectangle> = Form{
 template <>
 inline constexpr auto of<Fields> = Form{
     plain("field"),
-    optional("solids", &Fields::solids, flag, "Whose surfaces the boundaries are."),
-    optional("normals", &Fields::normals, flag, "Unit vectors there, outward from the region."),
+    optional("solids", &Fields::solids, flag, "The solids on whose surfaces the boundaries are."),
+    optional("normals", &Fields::normals, flag, "Unit normals at the boundaries, outward from the region."),
     optional("overlaps", &Fields::overlaps, flag, "The parts of rays that several regions claim."),
     optional("hidden", &Fields::hidden, flag,
-             "False: regions that pictures do not show (State) are not there. First hits never have them.",
+             "False: regions that pictures do not show (State) are left out. First hits never have them.",
              {.is_off = true}),
 };
 
@@ -79,8 +79,8 @@ inline constexpr auto of<DeviceInfo> = Form{
     required("version", &DeviceInfo::version, text),
     required("driver", &DeviceInfo::driver, text),
     required("type", &DeviceInfo::type, text, "\"cpu\", \"gpu\" or \"accelerator\"."),
-    required("memory", &DeviceInfo::memory, amount, "Bytes of all its memory."),
-    required("max_allocation", &DeviceInfo::max_allocation, amount, "Bytes of one buffer at most."),
+    required("memory", &DeviceInfo::memory, amount, "Bytes of the device's memory."),
+    required("max_allocation", &DeviceInfo::max_allocation, amount, "Largest number of bytes of one buffer."),
     required("compute_units", &DeviceInfo::compute_units, amount),
     required("fp64", &DeviceInfo::fp64, flag, "Whether it computes in double precision."),
 };
@@ -105,9 +105,9 @@ inline constexpr auto of<RegionInfo> = Form{
 template <>
 inline constexpr auto of<SolidInfo> = Form{
     plain("solid_info"),
-    required("name", &SolidInfo::name, text, "The object's."),
+    required("name", &SolidInfo::name, text, "Name of the object."),
     required("type", &SolidInfo::type, text, "BRL-CAD's name of the type: ell, tgc, arb8, and so on."),
-    required("piece", &SolidInfo::piece, amount, "From 0: which of the solids into which csgrt cuts a pipe."),
+    required("piece", &SolidInfo::piece, amount, "Index, from 0, among the solids into which csgrt cuts a pipe."),
 };
 
 using Milliseconds = decltype(Statistics::ms);
@@ -124,28 +124,29 @@ inline constexpr auto of<Statistics> = Form{
              "The device that is made ready at the time of this call and will replace `device`: its name, "
              "\"gpu\" while none is found, empty if none is awaited."),
     required("precision", &Statistics::precision, text, "\"double\", \"single\" or \"quad\"."),
-    required("method", &Statistics::method, text, "A few words."),
-    required("tolerance", &Statistics::tolerance, number, "Millimetres: the one that Settings::tolerance_rule gave."),
-    required("width", &Statistics::width, integer, "Of the picture, pixels; 0 for rays."),
-    required("height", &Statistics::height, integer, "The same."),
+    required("method", &Statistics::method, text, "The numerical method, in a few words."),
+    required("tolerance", &Statistics::tolerance, number,
+             "The tolerance in millimetres, which Settings::tolerance_rule gave."),
+    required("width", &Statistics::width, integer, "Width of the picture, pixels; 0 for rays."),
+    required("height", &Statistics::height, integer, "Height of the picture, pixels; 0 for rays."),
     required("rays", &Statistics::rays, amount),
-    required("ends", &Statistics::ends, amount, "Of segments along all rays."),
+    required("ends", &Statistics::ends, amount, "Number of boundaries of segments along all rays."),
     required("segments", &Statistics::segments, amount, "Intervals of rays inside single solids."),
     required(Key{"partitions.used", "", "partitions_used"}, &Statistics::partitions_used, amount,
-             "Intervals between neighbouring ends of segments that are inside any solid."),
+             "Intervals between neighbouring boundaries that are inside any solid."),
     required(Key{"partitions.allocated", "", "partitions_allocated"}, &Statistics::partitions_allocated, amount,
-             "For how many partitions there was memory."),
+             "Number of partitions for which memory was allocated."),
     required("overlaps", &Statistics::overlaps, amount, "Partitions that several regions of the same rank claim."),
     required("device_bytes", &Statistics::device_bytes, amount, "Memory in use on all devices."),
     required("segment_bytes", &Statistics::segment_bytes, amount, "Memory for segments, all batches."),
     required("partition_bytes", &Statistics::partition_bytes, amount, "Memory for partitions, all batches."),
-    required("batches", &Statistics::batches, amount, "Of rays."),
+    required("batches", &Statistics::batches, amount, "Number of batches of rays."),
     milliseconds({"ms.load", "", "ms_load"}, &Milliseconds::load,
                  "Reading the scene's file; the command line sets it."),
     milliseconds({"ms.compile", "", "ms_compile"}, &Milliseconds::compile, "Compiling the scene."),
     milliseconds({"ms.build", "", "ms_build"}, &Milliseconds::build,
-                 "Finding devices and compiling all kernels so far. A call that waits for that does not count it as "
-                 "`frame`."),
+                 "Finding devices and compiling all kernels so far. A call that waits for this does not count the wait "
+                 "as `frame`."),
     milliseconds({"ms.count_segments", "", "ms_count_segments"}, &Milliseconds::count_segments),
     milliseconds({"ms.scan", "", "ms_scan"}, &Milliseconds::scan),
     milliseconds({"ms.store_segments", "", "ms_store_segments"}, &Milliseconds::store_segments),
@@ -156,7 +157,7 @@ inline constexpr auto of<Statistics> = Form{
     milliseconds({"ms.cull_tiles", "", "ms_cull_tiles"}, &Milliseconds::cull_tiles),
     milliseconds({"ms.first_hits", "", "ms_first_hits"}, &Milliseconds::first_hits),
     milliseconds({"ms.kernels", "", "ms_kernels"}, &Milliseconds::kernels,
-                 "In which kernels ran on a device, whether one or several at once."),
+                 "Time in which kernels ran on a device, one or several at once."),
     milliseconds({"ms.frame", "", "ms_frame"}, &Milliseconds::frame, "The whole call, on the host's clock."),
     milliseconds({"ms.write", "", "ms_write"}, &Milliseconds::write,
                  "Writing the picture's file; the command line sets it."),

@@ -35,7 +35,7 @@ inline constexpr auto of<Settings> = Form{
               .absent = "a GPU if there is one, else this processor,",
               .excludes = "--reference",
               .changes_answers = false}),
-    optional("reference", &Settings::reference, flag, "The CPU reference computes, and no device.",
+    optional("reference", &Settings::reference, flag, "The CPU reference computes, not a device.",
              {.concern = Concern::work, .name = "--reference", .changes_answers = false}),
     optional(
         "wait_for_device", &Settings::wait_for_device, flag,
@@ -60,14 +60,14 @@ inline constexpr auto of<Settings> = Form{
               .changes_answers = false}),
     optional(
         "max_instances", &Settings::max_instances, Amount{1, Limits::most_instances},
-        "The largest number of instances: a solid that the trees use n times is n. They are counted before any is "
-        "made.",
+        "The largest number of instances: a solid that the trees use n times counts n times. They are counted before "
+        "any is made.",
         {.concern = Concern::model, .name = "--max-instances", .value = "N", .absent = "what docs/limits.md says"}),
     optional("precision", &Settings::precision, Named{&every_precision, &precision_names},
-             "Numbers of the geometry; single ones are relative to the eye.",
+             "Number type of the geometry; single precision is relative to the eye.",
              {.concern = Concern::work, .name = "--precision", .absent = "double"}),
     optional("tolerance_rule", &Settings::tolerance_rule, Named{&every_tolerance, &tolerance_names},
-             "Which ends of segments along a ray count as one.", {.concern = Concern::work}),
+             "The rule by which boundaries of segments along a ray count as one point.", {.concern = Concern::work}),
     optional("tolerance", &Settings::tolerance, number,
              "Millimetres along a ray, if tolerance_rule is a length; negative: the scene's.",
              {.concern = Concern::work}),
@@ -120,15 +120,14 @@ inline constexpr auto of<Camera> = Form{
     optional("center", &Camera::center, lengths,
              "The middle of the picture; the middle of the model's box if not given.",
              {.name = "--center", .value = "X,Y,Z"}),
-    optional(
-        Key{"size", "", "view_size"}, &Camera::view_size, length, positive(),
-        "Height of the view at the middle of the picture; the diagonal of the model's box if not given. A parallel "
-        "view shows everything before its plane, however small it is.",
-        {.name = "--view-size", .value = "MM", .expected = "a length in millimetres, greater than 0"}),
+    optional(Key{"size", "", "view_size"}, &Camera::view_size, length, positive(),
+             "Height of the view at the middle of the picture; the diagonal of the model's box if not given. A "
+             "parallel view, however small, shows everything before its plane.",
+             {.name = "--view-size", .value = "MM", .expected = "a length in millimetres, greater than 0"}),
     optional(
         "eye", &Camera::eye, lengths,
-        "Where the eye is, in place of azimuth and elevation, which have no effect then. With a perspective it gives "
-        "the size of the view, too; a parallel view takes only its direction from it.",
+        "The position of the eye, in place of azimuth and elevation, which have no effect then. With a perspective the "
+        "eye gives the size of the view, too; a parallel view takes only its direction from the eye.",
         {.name = "--eye", .value = "X,Y,Z"}),
     optional("look_at", &Camera::look_at, lengths, "Another name of the picture's middle.",
              {.name = "--look-at", .value = "X,Y,Z"}),
@@ -149,10 +148,10 @@ inline constexpr auto of<View> = Form{
              "depth, partitions and overlap.",
              {.name = "--first-hit", .is_off = true}),
     optional("channels", &View::channels, special, "The groups of channels that the picture has, a bit each."),
-    optional("clip", &View::clip, planes, "Up to six planes: what is beyond any of them is gone.",
+    optional("clip", &View::clip, planes, "Up to six planes, which cut away everything beyond them.",
              {.name = "--clip", .value = "AXIS:OFFSET"}),
-    optional("part", &View::part, special, "The pixels that the picture has alone, each as in the whole."),
-    optional("samples", &View::samples, Whole{1, 256}, "Rays a pixel, whose mean the colours are.",
+    optional("part", &View::part, special, "The only pixels that are drawn, each as in the whole picture."),
+    optional("samples", &View::samples, Whole{1, 256}, "Rays a pixel; the colours are their mean.",
              {.name = "--samples", .value = "N", .absent = "1"}),
     optional("transparent", &View::transparent, flag,
              "No background: red, green, blue and alpha are 0 where a ray hits nothing.", {.name = "--transparent"}),
