@@ -41,8 +41,7 @@ private:
     std::vector<float> background_;      ///< one value for each channel
     std::vector<std::uint8_t> covered_;  ///< one value for each tile of 8 x 8 pixels; 0: the tile shows only background
     std::uint64_t drawn_by_ = 0;         ///< the number of the Renderer that drew the last frame
-    std::shared_ptr<RegisteredMemory> registered_;  ///< the registration with devices; must be destroyed before the
-                                                    ///< image
+    std::shared_ptr<RegisteredMemory> registered_;  ///< the registration with devices; destroyed before the image
 };
 
 }  // namespace csgrt

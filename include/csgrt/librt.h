@@ -166,8 +166,7 @@ struct rt_i {
 /// A ray to shoot, and the functions to call with its answer.
 struct application {
     xray a_ray = {};
-    int (*a_hit)(application*, partition* head, seg*) = nullptr;  ///< called if there are partitions; the list of segs
-                                                                  ///< is empty
+    int (*a_hit)(application*, partition* head, seg*) = nullptr;  ///< called if there are partitions; seg is empty
     int (*a_miss)(application*) = nullptr;                        ///< called if there is no partition
     /// Decides which of two regions gets a part of the ray that both claim. 0: neither of them, 1: the first, 2: the
     /// second. For three and more regions, the function is called with the last winner and the next region. Null: the
@@ -377,8 +376,7 @@ struct Answer {
         std::int32_t solid = -1;
         Vec3 normal = {};  ///< points against the ray
     };
-    std::vector<Surface> surfaces;  // surfaces of the ray's overlapping regions, each computed as if alone; empty: not
-                                    // computed yet
+    std::vector<Surface> surfaces;  // of the ray's overlapping regions, each as if alone; empty: not computed
     Partitions own;
 
     void start(const Partitions& all, std::int64_t first, std::int64_t last) {

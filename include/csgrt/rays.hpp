@@ -30,8 +30,7 @@ struct RayRange {
 /// The ranges of a list of rays.
 struct RayRanges {
     RayRange all = {};
-    std::span<const RayRange> each = {};  ///< one range for each ray, in place of `all`; empty: `all` holds for every
-                                          ///< ray
+    std::span<const RayRange> each = {};  ///< one range for each ray, or empty: then `all` holds
 };
 
 /// Rays in rows and columns. Ray (column, row), counted from the top left, has the number row x columns + column, and

@@ -153,8 +153,7 @@ struct Bot {
     std::vector<Vec3> vertices = {};
     std::vector<std::array<std::uint32_t, 3>> faces = {};  ///< three indices into `vertices` each
     std::vector<double> thickness = {};                    ///< plates: millimetres, one for each face
-    std::vector<std::uint8_t> append = {};  ///< plates: for each face 1: the plate is behind the face, or 0: half on
-                                            ///< each side
+    std::vector<std::uint8_t> append = {};  ///< plates: for each face 1: it is behind the face, 0: half on each side
     std::vector<Vec3> normals = {};         ///< kept for conversion
     std::vector<std::array<std::uint32_t, 3>> face_normals = {};  ///< kept for conversion: indices into `normals`
 };
@@ -191,15 +190,10 @@ struct Vol {
 /// Terrain: heights at the points of a grid, solid down to z = 0. `matrix` maps grid steps and heights to the model's
 /// coordinates.
 struct Dsp {
-    enum class Cut : std::uint8_t {
-        adaptive,
-        lower_left,
-        upper_left
-    };                                   ///< the rule for the diagonal that splits a
-                                         ///< cell
-    std::string file = {};               ///< the source of the heights, for conversion
-    std::uint32_t width = 0, depth = 0;  ///< points in x and in y
-    bool smooth = false;                 ///< kept for conversion
+    enum class Cut : std::uint8_t { adaptive, lower_left, upper_left };  ///< the rule for a cell's diagonal
+    std::string file = {};                                               ///< the source of the heights, for conversion
+    std::uint32_t width = 0, depth = 0;                                  ///< points in x and in y
+    bool smooth = false;                                                 ///< kept for conversion
     Cut cut = Cut::adaptive;
     Matrix matrix = identity;
     std::vector<std::uint16_t> heights = {};  ///< width x depth, row by row from y = 0

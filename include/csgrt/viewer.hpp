@@ -14,8 +14,7 @@ namespace csgrt {
 
 /// The address on which a Viewer listens, and texts about its model.
 struct ViewerOptions {
-    std::string address = "127.0.0.1";  ///< the address of the interface; with another address, other machines can
-                                        ///< connect
+    std::string address = "127.0.0.1";  ///< of the interface; with another one, other machines can connect
     int port = 0;                       ///< 0: any free port
     std::string name = {};              ///< name of the model, on the page
     /// The words after `csgrt` and `csgrt shoot` that load the same model, quoted for a shell: a file, objects,

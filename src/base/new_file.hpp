@@ -105,8 +105,7 @@ public:
             if (file_ < 0 && errno != EEXIST) fail("cannot create", errno);
             if (file_ < 0) continue;
             if (!lock())
-                close(std::exchange(file_, -1));  // another process removed it, because it seemed to be left by a
-                                                  // killed process
+                close(std::exchange(file_, -1));  // another process removed it as a killed process's file
             else
                 temporary_ = std::move(temporary);
         }
@@ -136,8 +135,7 @@ public:
 
     /// Writes all bytes to an open file with the name `name`.
     static void write_to(int file, std::string_view bytes, const std::string& name, void (*on_signal)() = nullptr) {
-        constexpr std::size_t most = std::size_t{1} << 30;  // the bytes of one call, because Windows counts them in an
-                                                            // int
+        constexpr std::size_t most = std::size_t{1} << 30;  // bytes of one call, which Windows counts in an int
         while (!bytes.empty()) {
             const auto written = ::write(file, bytes.data(), static_cast<unsigned>(std::min(bytes.size(), most)));
             if (written >= 0) {
@@ -189,8 +187,7 @@ private:
         struct stat opened, named;
         const bool is_left = flock(file, LOCK_EX | LOCK_NB) == 0 && fstat(file, &opened) == 0 &&
                              S_ISREG(opened.st_mode) && lstat(temporary.c_str(), &named) == 0 &&
-                             opened.st_ino == named.st_ino && opened.st_dev == named.st_dev;  // the opened file still
-                                                                                              // has this name
+                             opened.st_ino == named.st_ino && opened.st_dev == named.st_dev;  // still has the name
         if (is_left) unlink(temporary.c_str());
         close(file);
     }

@@ -16,8 +16,7 @@
 // ---- The handles ----
 struct csgrt_scene {
     csgrt::Scene scene = {};
-    std::unordered_set<std::string> names = {};  ///< of the objects; filled by the first call that adds an object, as
-                                                 ///< reading a scene must not change it
+    std::unordered_set<std::string> names = {};  ///< of the objects; the first call that adds an object fills it
 };
 struct csgrt_model {
     csgrt::Model model;

@@ -207,8 +207,8 @@ csgrt_status csgrt_scene_set_info(csgrt_scene* scene, const csgrt_scene_info* in
     return call([&] {
         const csgrt_scene_info i = read(info, csgrt_scene_info CSGRT_SCENE_INFO, "info");
         Scene& s = CSGRT_NEED(scene).scene;
-        std::string title = text_or_empty(i.title), units = text_or_empty(i.units);  // copied first, because the
-                                                                                     // pointers may lead into the scene
+        // The texts are copied first, because the pointers may lead into the scene.
+        std::string title = text_or_empty(i.title), units = text_or_empty(i.units);
         s.title = std::move(title);
         s.units = std::move(units);
         s.unit_length = i.unit_length;

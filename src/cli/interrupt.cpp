@@ -43,10 +43,7 @@ void catch_interrupts() {
     for (int signal : {SIGINT, SIGTERM, SIGHUP}) {
         struct sigaction before {};
         sigaction(signal, nullptr, &before);
-        if (before.sa_handler != SIG_IGN)
-            sigaction(signal, &action, nullptr);  // ignored signals stay ignored, as
-                                                  // under nohup or in the background of a
-                                                  // script
+        if (before.sa_handler != SIG_IGN) sigaction(signal, &action, nullptr);  // nohup ignores signals
     }
     action.sa_handler = on_alarm;
     action.sa_flags = SA_RESTART;  // the loading of a library goes on

@@ -13,8 +13,7 @@ namespace {
 // Floats in copies that are underway. A copy takes 4 microseconds to begin, less than a chunk's copy lasts, so two
 // chunks keep the bus busy (docs/experiments.md).
 constexpr std::size_t most_underway = 2 * CopyFeed::chunk;
-constexpr std::size_t floats_a_thread = std::size_t{1} << 19;  // fewer floats are written in less time than a thread
-                                                               // takes to wake
+constexpr std::size_t floats_a_thread = std::size_t{1} << 19;  // fewer are copied before a thread wakes
 
 std::size_t end_of(const CopyFeed::Copy& copy) {
     return copy.begin + (copy.channels - 1) * copy.slice + (copy.lines - 1) * copy.pitch + copy.columns;

@@ -166,8 +166,7 @@ Discovery find_devices() {
         const BlockedSignals blocked;
         const OpenClLoader& loader = opencl_loader();
         if (loader.functions) {
-            static bool lacked = false;  // ocl-icd loads drivers once, and does not report drivers that it could not
-                                         // load
+            static bool lacked = false;  // ocl-icd loads drivers once, and does not report those that fail
             static_cast<void>(last_load_fault());
             add_devices(*loader.functions, found);
             lacked |= lacked_memory(last_load_fault());

@@ -67,8 +67,7 @@ public:
         for (int line_number = 1; !rest.empty(); ++line_number) {
             const std::string_view line = rest.substr(0, rest.find('\n'));
             rest.remove_prefix(std::min(line.size() + 1, rest.size()));
-            if (const auto guard = after(line, {"#", "undef", "CSGRT_"}))  // after an #undef of its guard, a file may
-                                                                           // be included again
+            if (const auto guard = after(line, {"#", "undef", "CSGRT_"}))  // then the file may be included again
                 std::erase_if(
                     done_, [&](const std::string& done) { return guard_of(done) == "CSGRT_" + std::string(*guard); });
             if (const std::string_view included = included_file(line); !included.empty()) {

@@ -67,8 +67,7 @@ public:
         if (!memory_ || memory_->size() < bytes_) {
             wait_until_done(event_);  // in case wait() was not called
             memory_.reset();
-            memory_.emplace(*device_, name_, std::bit_ceil(bytes_));  // rounded up, because new memory takes half a
-                                                                      // millisecond
+            memory_.emplace(*device_, name_, std::bit_ceil(bytes_));  // new memory takes half a millisecond
         }
         event_ = std::exchange(buffer_, nullptr)->copy_read(memory_->data(), bytes_, offset_);
     }
@@ -89,8 +88,7 @@ private:
     std::string name_;
     const Buffer* buffer_ = nullptr;  ///< the buffer of start()
     std::size_t bytes_ = 0, offset_ = 0;
-    std::optional<PinnedMemory> memory_;  ///< pinned, because for other memory a GPU's driver would make the copy
-                                          ///< before the call returns
+    std::optional<PinnedMemory> memory_;  ///< pinned: for other memory, a GPU's driver would copy within the call
     Event event_;
 };
 

@@ -80,8 +80,7 @@ void save_scene(const Scene& scene, const std::string& path) {
     if (path != "-" && extension_of(path) != ".json" && !target_of(path).direct) {
         refuse(path, "scenes are written as .json", "give the file a name that ends in .json");
     }
-    const std::string text = json_scene_text(scene.lenient ? strict_scene(scene) : scene);  // a .json file holds no
-                                                                                            // lenient scene
+    const std::string text = json_scene_text(scene.lenient ? strict_scene(scene) : scene);  // .json is always strict
     if (path == "-") {
         std::fflush(stdout);
         NewFile::write_to(STDOUT_FILENO, text, "standard output");

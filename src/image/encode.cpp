@@ -56,8 +56,7 @@ void interleave(const Image& image, std::size_t first, std::size_t end, std::vec
 
 void describe(OIIO::ImageSpec& spec, const Image& image, bool every_channel) {
     for (const auto& [key, text] : image.attributes) {
-        const bool of_numbers = key == "csgrt:regions" || key == "csgrt:solids";  // these keys concern channels that a
-                                                                                  // PNG does not have
+        const bool of_numbers = key == "csgrt:regions" || key == "csgrt:solids";  // about channels that PNG lacks
         if (every_channel || !of_numbers) spec.attribute(key, text);
     }
     for (const auto& [key, matrix] : image.matrices) {
@@ -89,8 +88,7 @@ std::vector<unsigned char> encode(const Image& image, const std::string& format,
         for (std::size_t c = 0; c < image.names.size(); ++c)
             spec.channelformats.push_back(image.holds_ids(c) ? OIIO::TypeUInt32 : OIIO::TypeFloat);
         spec.attribute("compression", "zip");
-        spec.attribute("DateTime", "");  // without it, OpenImageIO would write the current time, so that no two files
-                                         // would be the same
+        spec.attribute("DateTime", "");  // without it, OpenImageIO would write the current time
     } else {
         spec.attribute("oiio:ColorSpace", "sRGB");
         spec.attribute("oiio:UnassociatedAlpha", 1);  // the pixels given to OpenImageIO have unassociated alpha

@@ -81,8 +81,7 @@ std::vector<Ray> neighbours_of(const Ray& ray, double distance, int count) {
 struct Verifier::Impl {
     Settings settings;
     std::function<bool(double)> progress;  ///< of the current call
-    double done = 0, part = 0;  ///< of the current call: the fraction done before the current list of rays, and the
-                                ///< list's own fraction
+    double done = 0, part = 0;             ///< fractions of the call: before the current list of rays, and of this list
     std::optional<Renderer> device, reference, judge;
     std::vector<Renderer> other_tolerances;
     Box box;

@@ -23,8 +23,7 @@ namespace csgrt {
 namespace {
 
 constexpr std::size_t places = 512, most_threads = 64;
-constexpr std::size_t most_bytes_of_bodies = 8 * most_body_bytes;  // a parsed JSON body takes up to 40 times as much
-                                                                   // memory
+constexpr std::size_t most_bytes_of_bodies = 8 * most_body_bytes;  // parsed JSON takes up to 40 times as much
 constexpr std::size_t piece = 262'144;  // bytes of an answer between two checks whether the server ends
 constexpr std::chrono::milliseconds tick{50};
 /// The times after which a client is dropped: while it sends a head or a body, while it sends no request, while it

@@ -17,8 +17,7 @@ Status run(const ConvertArguments& arguments) {
     std::vector<Warning> warnings = scene.warnings;
     if (scene.lenient)
         validate(scene, {}, false,
-                 &warnings);  // writing adds warnings about parts that are left out; the reader has reported its own
-                              // warnings
+                 &warnings);  // writing adds warnings about parts that are left out; the reader's are already reported
     report(warnings);
     save_scene(scene, arguments.output);
     return Status::ok;

@@ -31,8 +31,7 @@ std::string gibibytes(std::uint64_t bytes) {
 
 /// Can drivers be loaded? A driver may end the process that loads it, so a child process loads the drivers first.
 bool can_load_drivers() {
-#ifdef CSGRT_HAS_OWN_HANDLERS  // a sanitizer: its child process may wait for ever for a lock that a thread of the
-                               // parent holds
+#ifdef CSGRT_HAS_OWN_HANDLERS  // a sanitizer: a child may wait for ever for a lock of the parent's threads
     return true;
 #endif
     const pid_t child = fork();

@@ -141,8 +141,7 @@ void flush_queue_of(const Event& event) {
 void wait_for(const Event& event) {
     if (!event) return;
     if (event.cl().patience > 0 && !is_done(event)) {
-        constexpr double at_once_ms = 2;  // the host first polls without sleeping, as drivers do, because most commands
-                                          // take no longer
+        constexpr double at_once_ms = 2;  // the host first polls without sleeping, as drivers do for short commands
         flush_queue_of(event);
         for (const Wait wait(event.cl()); !is_done(event) && wait.ms() < at_once_ms;) {
             wait.check();

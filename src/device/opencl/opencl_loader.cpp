@@ -78,8 +78,7 @@ OpenClLoader open_loader() {
 }  // namespace
 
 const OpenClLoader& opencl_loader() {
-    static const auto& loader = *new const OpenClLoader(open_loader());  // never destroyed, because threads may still
-                                                                         // run during exit()
+    static const auto& loader = *new const OpenClLoader(open_loader());  // never destroyed: threads may outlive exit()
     return loader;
 }
 

@@ -146,8 +146,7 @@ private:
     const NmgCounts& counts_;
     std::string_view bytes_;
     std::size_t offset_, step_;
-    std::array<std::uint64_t, 26> first_{}, begin_{};  ///< for each kind: the number of the first record, and its
-                                                       ///< position
+    std::array<std::uint64_t, 26> first_{}, begin_{};  ///< for each kind: its first record's number and position
     std::uint32_t loops_ = 0, edges_ = 0;              ///< seen so far
     std::unordered_map<std::uint32_t, std::uint32_t> vertices_;  ///< the solid's vertex for each vertex record
     Nmg nmg_;

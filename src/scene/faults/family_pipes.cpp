@@ -26,8 +26,7 @@ double tangent_at(Faults& faults, const Pipe& s, std::size_t i) {
     if (!(p.bend >= p.outer / 2 * (1 - rounding))) {
         faults.push_back("the bend" + at + " must have a radius of half the outer diameter or more");
     }
-    return p.bend * (cosine > -0.5 ? sine / (1 + cosine) : (1 - cosine) / sine);  // the same formula as in
-                                                                                  // flatten/solid_parts.cpp
+    return p.bend * (cosine > -0.5 ? sine / (1 + cosine) : (1 - cosine) / sine);  // as in flatten/solid_parts.cpp
 }
 
 }  // namespace

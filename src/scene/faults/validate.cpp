@@ -347,8 +347,7 @@ private:
     Walk<Level> walk_;
     FindingList found_;
     std::vector<Warning> warnings_;
-    std::vector<std::pair<std::size_t, std::uint32_t>> counted_;  ///< a warning's index, and the object whose members
-                                                                  ///< it counts
+    std::vector<std::pair<std::size_t, std::uint32_t>> counted_;  ///< a warning's index, and the object that it counts
     std::unordered_map<std::string, std::size_t> missing_;        ///< for each missing name: its warning's index
     const Report report_ = [this](const Place& place, std::string message, std::string suggestion) {
         add(place, std::move(message), std::move(suggestion));

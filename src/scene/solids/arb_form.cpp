@@ -12,8 +12,7 @@ namespace {
 
 constexpr double most_uneven = 0.0005;          // millimetres
 constexpr double most_uneven_relative = 1e-6;   // relative to the arb's size, if this gives less
-constexpr double least_depth_relative = 4e-12;  // relative to the arb's size; more than the depth below which
-                                                // polyhedron.cpp takes an arb for flat
+constexpr double least_depth_relative = 4e-12;  // relative to the arb's size; above polyhedron.cpp's depth of flat arbs
 constexpr double cancelled = 1e-9;              // relative to a sum's terms: below this, the sum counts as 0
 
 double sum_of_sizes(const Vec3& v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); }

@@ -53,8 +53,7 @@ struct Converter {
         const long double x = end.u - start.u, y = end.v - start.v, chord = std::hypot(x, y), half = chord / 2;
         const long double r = std::max<long double>(arc.radius, half);
         const long double to_center = std::sqrt((r - half) * (r + half));
-        const bool minor = arc.center_left != arc.clockwise;  // less than half a circle; then a counterclockwise arc's
-                                                              // centre is on the left
+        const bool minor = arc.center_left != arc.clockwise;  // less than half a circle
         const long double alpha = std::atan2(half, minor ? to_center : -to_center);
         const int count = std::max(1, static_cast<int>(std::ceil(4 * alpha / std::numbers::pi_v<long double> - 1e-9L)));
         const long double delta = alpha / count;

@@ -9,8 +9,7 @@ namespace csgrt {
 namespace {
 
 constexpr long double precision = 1e-16L;
-constexpr int deepest = 60;  // number of halvings; after 30 the control points of a smooth curve are within `precision`
-                             // of the curve
+constexpr int deepest = 60;  // halvings; 30 bring the control points of a smooth curve within `precision` of the curve
 
 /// A curve's control points along the direction, in homogeneous coordinates.
 struct Values {

@@ -152,9 +152,7 @@ private:
                 combination.tree = read_v5_tree(value, source_, object_, store_);
                 continue;
             }
-            if (key.text == "material" || key.text == "temp")
-                continue;  // neither shapes nor colours depend on these
-                           // keys
+            if (key.text == "material" || key.text == "temp") continue;  // they change no shape and no colour
             try {
                 if (!set_attribute(combination, {key.text, value}))
                     throw Fault{key.offset, quoted(key.text) + " is no parameter of a comb", {}};

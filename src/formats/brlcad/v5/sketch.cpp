@@ -105,9 +105,7 @@ Sketch read_v5_sketch(Parameters& p) {
 Shape read_v5_extrude(Parameters& p) {
     Extrude solid{p.vec3("V"), p.vec3("H"), p.vec3("A"), p.vec3("B"), {}};
     solid.sketch.name = p.take("S").text;
-    if (p.has("K"))
-        p.integer("K", -largest_integer, largest_integer);  // the vertex of the key point, which only
-                                                            // editors use
+    if (p.has("K")) p.integer("K", -largest_integer, largest_integer);  // the key point's vertex, for editors
     return solid;
 }
 
