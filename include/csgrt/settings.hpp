@@ -20,8 +20,8 @@ struct Settings {
     /// Calls wait until a GPU's kernels are compiled; else this processor computes until then, with the same bits. A
     /// driver takes up to half a minute to compile. Measurements need the GPU from the first call on.
     bool wait_for_device = false;
-    /// Seconds that a device may take for an answer before it is given up; 0: any time. Negative: 60 s for a GPU, any
-    /// time for a processor, whose kernels take as long as the rays do. A device that is given up is lost: the call
+    /// Seconds that a device may take for an answer before it is given up; 0: no limit. Negative: 60 s for a GPU, no
+    /// limit for a processor, whose kernels take as long as the rays do. A device that is given up is lost: the call
     /// throws Error (device_fault), and so do all later calls of the Renderer. The driver's memory is not freed until
     /// the process ends. Calls of the driver that do not return, for example of its compiler, have no time limit.
     double device_timeout = -1;

@@ -32,7 +32,7 @@ struct Statistics {
     /// first hits may run at the same time. Then kernels share the device, each time is from a kernel's begin to its
     /// end, and the sum of the times is above `kernels`.
     struct {
-        double load = 0;     ///< Reading the scene's file; the command line sets it.
+        double load = 0;     ///< Reading the scene's file. Only the command line sets this member.
         double compile = 0;  ///< Compiling the scene.
         /// Finding devices and compiling all kernels so far. A call that waits for this does not count the wait as
         /// `frame`.
@@ -41,7 +41,7 @@ struct Statistics {
         double cull_tiles = 0, first_hits = 0, rows = 0;                                              ///< kernels
         double kernels = 0;  ///< Time in which kernels ran on a device, one or several at once.
         double frame = 0;    ///< The whole call, on the host's clock.
-        double write = 0;    ///< Writing the picture's file; the command line sets it.
+        double write = 0;    ///< Writing the picture's file. Only the command line sets this member.
     } ms = {};
 };
 

@@ -110,8 +110,8 @@ FN single to_single(real x) { return (float)x; }
 // The number of the lowest bit that is set; bits > 0.
 FN u32 lowest(u32 bits) { return 31u - clz(bits & (0u - bits)); }
 
-// The smaller of two floats. A GPU has fmin as one instruction. A processor has only the comparison: fmin, which
-// ignores NaNs, takes several instructions there.
+// The smaller of two floats. A GPU has one instruction for fmin. On a processor fmin takes several instructions,
+// because it ignores NaNs, so processors compare.
 #if defined(__OPENCL_VERSION__) && !defined(CSGRT_PACKETS)
 FN float single_min(float a, float b) { return fmin(a, b); }
 FN float single_max(float a, float b) { return fmax(a, b); }

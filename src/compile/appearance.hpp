@@ -22,8 +22,8 @@ struct SceneAppearance {
     Vec3 background;
 };
 
-/// The appearance of the scene and its regions, by BRL-CAD's rules for the regions that emit light, `shining`. A region
-/// of `shining` without a finite box gives no light, and a warning says so.
+/// The appearance of the scene and its regions. `shining` lists the regions that emit light, by BRL-CAD's rules. A
+/// region of `shining` without a finite box gives no light, and a warning says so.
 Appearance appearance_of(const SceneAppearance& scene, std::span<const RegionInfo> regions,
                          std::span<const RegionLight> shining, bool display_shading, std::vector<Warning>& warnings);
 

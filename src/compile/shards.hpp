@@ -112,8 +112,8 @@ public:
         });
     }
     /// Calls work(table, members, shard) for each shard that has members, several at once, with a table that is cleared
-    /// before. Each thread has its own table, which begins as a copy of `empty`: new memory for every shard made a
-    /// seventh of the memory pages of compiling.
+    /// before. Each thread has its own table, which begins as a copy of `empty`. With new memory for every shard, a
+    /// seventh of the memory pages that compiling used were for these tables.
     template <class Table, class Work>
     void for_each(const Table& empty, const Work& work) const {
         constexpr std::size_t few = 8192;  // items below which threads would take longer to start

@@ -142,7 +142,7 @@ inline constexpr auto of<Statistics> = Form{
     required("partition_bytes", &Statistics::partition_bytes, amount, "Memory for partitions, all batches."),
     required("batches", &Statistics::batches, amount, "Number of batches of rays."),
     milliseconds({"ms.load", "", "ms_load"}, &Milliseconds::load,
-                 "Reading the scene's file; the command line sets it."),
+                 "Reading the scene's file. Only the command line sets this member."),
     milliseconds({"ms.compile", "", "ms_compile"}, &Milliseconds::compile, "Compiling the scene."),
     milliseconds({"ms.build", "", "ms_build"}, &Milliseconds::build,
                  "Finding devices and compiling all kernels so far. A call that waits for this does not count the wait "
@@ -160,7 +160,7 @@ inline constexpr auto of<Statistics> = Form{
                  "Time in which kernels ran on a device, one or several at once."),
     milliseconds({"ms.frame", "", "ms_frame"}, &Milliseconds::frame, "The whole call, on the host's clock."),
     milliseconds({"ms.write", "", "ms_write"}, &Milliseconds::write,
-                 "Writing the picture's file; the command line sets it."),
+                 "Writing the picture's file. Only the command line sets this member."),
 };
 
 }  // namespace csgrt::form

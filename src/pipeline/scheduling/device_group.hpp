@@ -35,9 +35,9 @@ public:
     const std::shared_ptr<const void>& owner() const { return owner_; }
     void keep(std::shared_ptr<const void> owner) { owner_ = std::move(owner); }
     void prepare(bool every_partition);
-    /// Registers the memory of a picture that will be drawn again with the GPUs that have enough memory for this. The
-    /// memory is `pixels` floats for each channel, one channel after the other. The memory must outlive the result; the
-    /// group need not.
+    /// Registers a picture's memory with each GPU that has enough memory for this. It pays for pictures that will be
+    /// drawn again. The memory is `pixels` floats for each channel, one channel after the other. The memory must
+    /// outlive the result; the group need not.
     std::shared_ptr<RegisteredMemory> register_memory(std::span<const ChannelMemory> channels, std::size_t pixels);
     /// Draws a frame, as Pipeline::render does. Also throws Error (interrupted), if `watch`, which may be null, ends
     /// the work.
