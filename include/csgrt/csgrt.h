@@ -200,7 +200,7 @@ CSGRT_API csgrt_status csgrt_save_scene(const csgrt_scene* scene, const char* pa
 CSGRT_API csgrt_status csgrt_validate(const csgrt_scene* scene, const char* const* objects, size_t object_count,
                                       const csgrt_settings* settings);
 
-/// One member of a solid: its name as in scenes/csgrt.schema.json and docs/scene-format.md, its value in millimetres
+/// One member of a solid: its name as in scenes/csgrt.schema.json and scenes/README.md, its value in millimetres
 /// and degrees.
 typedef struct csgrt_member {
     const char* name;

@@ -108,8 +108,8 @@ using Object = std::variant<Solid, Combination>;
 
 // ---- Instances ----
 
-/// The visibility of a region in pictures. Partitions have all regions, unless the call leaves out regions that are not
-/// shown. A region's state does not change the shapes of other regions.
+/// The visibility of a region in pictures. Lists of partitions contain regions of every state, unless the call leaves
+/// out those that are not shown. A region's state does not change the shapes of other regions.
 enum class State : std::uint8_t {
     shown,
     ghost,  ///< as hidden, but channel::ghosts shows where the region would be seen

@@ -35,7 +35,7 @@ typedef struct {
     vec3 o;      // the ray's closest approach, relative to the pinch
     real along;  // the distance of the closest approach along the ray
     real gap;
-    int passes;  // whether the ray passes near
+    int passes;  // whether the ray passes near the pinch
 } eto_pinch;
 
 #define ETO_PINCH_REACH REAL(0.2)

@@ -1,6 +1,6 @@
 // Quartic: four ways to solve the quartics of tor, eto and tapered cones, for comparison. The first is the default.
 //
-//   QUARTIC_BRACKETED  polynomial.h, with the origin at the closest approach
+//   QUARTIC_BRACKETED  sign_changes (polynomial.h), with the origin at the closest approach
 //   QUARTIC_UNSHIFTED  the same with the ray's own origin: coefficients lose their digits as it moves away
 //   QUARTIC_FERRARI    the closed form, ferrari.h
 //   QUARTIC_YUKSEL     roots between those of the derivative, to a stated error (Yuksel 2022, High-Performance

@@ -1,6 +1,6 @@
-// Solid: the segments of any type of solid that has at most two, and the normal of any solid. Only this file and
-// collect.h name all types. A program has only the types of its scene (-DCSGRT_SOLIDS=<bits>): code that is left out
-// costs no registers.
+// Solid: the segments of any type of solid that has at most two, and the normal of any solid. Types are
+// named here, in collect.h, tables.h, touch.h and packet/closed_form.h. A program has only the types of its scene
+// (-DCSGRT_SOLIDS=<bits>): code that is left out costs no registers.
 #ifndef CSGRT_GEOMETRY_SOLID_H
 #define CSGRT_GEOMETRY_SOLID_H
 

@@ -306,7 +306,7 @@ typedef struct {
     u32 listed[COST_CLASSES];  // tiles of each class that are in the list already; class 0 is not listed
     u32 entries;               // of the list: tiles of all classes but 0, or their parts
     u32 overflows;             // first hits: rays with more segments at a time than a sweep holds
-    u32 candidates;            // every partition: the rays' candidates, also if the buffers were too small
+    u32 candidates;            // every partition: number of the rays' candidates, even if the buffers were too small
     RayCount total;            // of the rays' counts, also if the buffers were too small
 } BatchReport;
 
@@ -360,7 +360,7 @@ FN u32 missed_on(u32 side) { return side == 0 ? 0 : MISSED_ABOVE >> (side - 1u);
 // A deep ray, and how far it is swept. Positions count its sorted boundaries.
 typedef struct {
     u32 ray;
-    u32 block, segment;             // blocks of boundaries to sort, and segments, of the deep rays before it
+    u32 block, segment;             // numbers of blocks to sort and of segments that earlier deep rays have
     u32 event, at;                  // the positions of the current event and of the next event
     u32 changed;                    // the segments of boundaries before this position have been opened and closed
     u32 in_boundary, out_boundary;  // of the event: see weave
@@ -438,7 +438,7 @@ typedef struct {
 #define DISPLAY_PARTS 4096u
 #define DISPLAY_WORDS 1024u
 typedef struct {
-    float ends[256];           // the last limit is never reached
+    float ends[256];           // the last of the ends is infinity
     u32 first[DISPLAY_WORDS];  // of four parts, the first in the lowest byte
 } DisplayBytes;
 

@@ -1,4 +1,4 @@
-// What a type of solid needs (docs/architecture.md) beside what csgrt does not compile without: a sample, an oracle
+// What a type of solid needs (CONTRIBUTING.md) beside what csgrt does not compile without: a sample, an oracle
 // that agrees with what is packed and traced, and a test of its geometry: a row of solid_kinds_test.cpp, or a title.
 #include "catch.hpp"
 #include "folder.hpp"

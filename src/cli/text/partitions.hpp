@@ -34,7 +34,7 @@ private:
 
 /// Appends a number with 17 significant digits, as printf's %.17g does in the C locale.
 void append_number(std::string& out, double value);
-/// Appends a name whose blanks are escaped.
+/// Appends a name and escapes its blanks, control characters and backslashes.
 void append_name(std::string& out, std::string_view name);
 
 /// A ray's answer, as it was read from a file.

@@ -18,7 +18,7 @@ template <class Item>
 class ItemReader {
 public:
     /// Reads all items once, to count and check them. "-" is standard input. Throws Error (file) if the file cannot be
-    /// read, or with the first wrong lines and the number of the others.
+    /// read or has wrong lines. The error shows the first wrong lines and the number of the others.
     explicit ItemReader(const std::string& path);
 
     std::uint64_t count() const { return count_; }

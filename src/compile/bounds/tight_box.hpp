@@ -33,8 +33,8 @@ inline Box parallelogram_box(const Matrix& m, const Wide& center, const Wide& a,
                       glm::abs(transform_direction(m, a)) + glm::abs(transform_direction(m, b)));
 }
 
-/// The box of a solid under the matrix `m`, before it is rounded outward (see solid_box). bounds.cpp has the solids of
-/// planes and quadrics; support_box.hpp makes boxes from support functions.
+/// The box of a solid under the matrix `m`, before it is rounded outward (see solid_box). bounds.cpp has ell, tgc,
+/// arbs, half, tor and ehy; support_box.hpp makes boxes from support functions.
 struct Tight {
     const Matrix& m;
 

@@ -22,8 +22,8 @@ struct Attributes {
 /// RANK_x, by which regions are numbered.
 std::uint32_t rank_of(const RegionInfo& region);
 
-/// The region's info except path and bounds. A null `region` means a solid outside all regions: then all members are 0.
-/// BRL-CAD's colour table colours a region by its id, unless a combination has given it a colour.
+/// The region's info except path and bounds. A null `region` means a solid that no region contains: then all members
+/// are 0. BRL-CAD's colour table colours a region by its id, unless a combination has given it a colour.
 RegionInfo describe_region(const Combination* region, const Attributes& attributes,
                            const std::vector<RegionColor>& region_colors);
 

@@ -49,7 +49,8 @@ struct Source {
     ReferenceLimit references;
 };
 
-/// The object where a region starts: a combination with the region flag, or a solid outside all regions.
+/// The object in which a region begins on the walk down: a combination with the region flag, or a solid that no such
+/// combination contains.
 struct RegionStart {
     std::uint32_t object;
     std::uint32_t path;   ///< see RegionForest::path

@@ -38,7 +38,7 @@ private:
     struct Subtree {
         std::uint32_t node, cluster, rake;
     };
-    /// A range of a path's items, which `cluster` composes.
+    /// Neighbouring items of a path: [first, end). `cluster` composes these items.
     struct Range {
         std::size_t first, end;
         std::uint32_t cluster, rake;

@@ -16,7 +16,7 @@
 
 namespace csgrt {
 
-/// The packer writes one solid. pack.cpp has the solids of planes and quadrics, pack_curved.cpp other closed forms,
+/// The packer writes one solid. pack.cpp has ell, tgc, arbs, half, tor and ehy, pack_curved.cpp other closed forms,
 /// pack_sketches.cpp the solids of sketches, pack_meshes.cpp the solids of triangles.
 struct Packer {
     const Matrix& matrix;

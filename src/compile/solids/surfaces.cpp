@@ -86,7 +86,8 @@ std::vector<Wide> points_on(std::uint32_t type, const double* reals, const WideM
 }
 
 /// The key by which equal surfaces are found. The point is the centre of a ball or torus, the apex of a cone, or the
-/// point of a cylinder's axis that is nearest to the scene's middle. The size measures the width.
+/// point of a cylinder's axis that is nearest to the scene's middle. The size grows with the radius: of a
+/// cone, at distance 1 from the apex.
 struct Key {
     Wide point;
     long double size;

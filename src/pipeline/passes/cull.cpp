@@ -8,8 +8,7 @@ CullPass::CullPass(Device& device, const Program& program)
 Event CullPass::launch(const SceneTables& scene, BatchBuffers& batch, const kernel::Frame& frame) {
     const std::uint32_t tiles = frame.ray_count / tile_rays;
     batch.costs.reserve(tiles);
-    // For every partition a GPU finds the candidates as fast without lists, and the lists take most of culling's time
-    // (docs/architecture.md, modes).
+    // For every partition a GPU finds the candidates as fast without lists, and the lists take most of culling's time.
     if (frame.every_partition && device_.info().type != "cpu")
         batch.tile_nodes.release();
     else

@@ -14,7 +14,7 @@
 
 namespace csgrt {
 
-/// The size of batches: as many rays as take some 10 ms, by the time of the last batches.
+/// The size of batches: so many rays that a batch takes about 10 ms, estimated from the last batches.
 class BatchSize {
 public:
     std::uint64_t rays() const { return rays_; }

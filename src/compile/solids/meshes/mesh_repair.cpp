@@ -502,7 +502,7 @@ std::size_t MeshRepair::turn_over(const Edges& edges, bool apply) {
     return all;
 }
 
-/// Does a closed surface that winds one way wind outward?
+/// For a closed surface whose faces all wind one way: are they counterclockwise, seen from outside?
 bool MeshRepair::winds_outward() const {
     const Vec3& middle = bot_.vertices[faces_[0][0]];
     double volume = 0;

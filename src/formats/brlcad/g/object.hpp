@@ -30,8 +30,8 @@ struct GObject {
     GBlock attributes, body;
 };
 
-/// Reads the object at `offset`, without decoding its body. Throws Fault, and then `object` has the parts that were
-/// read.
+/// Reads the object at `offset`, without decoding its body. If it throws Fault, `object` has the parts that
+/// were read until then.
 void read_g_object(const ByteSource& source, std::size_t offset, GObject& object);
 
 /// The attributes of an object. Throws Fault.
