@@ -303,6 +303,8 @@ typedef struct csgrt_light {
 CSGRT_API csgrt_status csgrt_scene_set_lights(csgrt_scene* scene, const csgrt_light* lights, size_t count);
 /// Sets the objects that are drawn by default: names or paths; none: the objects that no other object uses.
 CSGRT_API csgrt_status csgrt_scene_set_top(csgrt_scene* scene, const char* const* objects, size_t count);
+/// Sets the places of these objects, of each 16 numbers, row by row; of none: all stand where they are.
+CSGRT_API csgrt_status csgrt_scene_set_top_matrices(csgrt_scene* scene, const double* matrices, size_t count);
 
 /// The plain members of csgrt::Scene.
 typedef struct csgrt_scene_info {
@@ -320,6 +322,7 @@ CSGRT_API csgrt_status csgrt_scene_set_info(csgrt_scene* scene, const csgrt_scen
 /// may be NULL.
 CSGRT_API csgrt_status csgrt_scene_object(const csgrt_scene* scene, size_t index, const char** name, const char** type);
 CSGRT_API csgrt_status csgrt_scene_top(const csgrt_scene* scene, size_t index, const char** object);
+CSGRT_API csgrt_status csgrt_scene_top_matrix(const csgrt_scene* scene, size_t index, double matrix[16]);
 /// A fault that the file's reader tolerated; `pointer` names the object.
 CSGRT_API csgrt_status csgrt_scene_warning(const csgrt_scene* scene, size_t index, csgrt_diagnostic* warning);
 
@@ -379,6 +382,8 @@ typedef struct csgrt_region_info {
 } csgrt_region_info;
 /// Fills `info` with the region that has the id `index` in region_ids.
 CSGRT_API csgrt_status csgrt_model_region(const csgrt_model* model, size_t index, csgrt_region_info* info);
+/// `index`: that of the region that has a path; -1: none has.
+CSGRT_API csgrt_status csgrt_model_find_region(const csgrt_model* model, const char* path, int32_t* index);
 CSGRT_API csgrt_status csgrt_model_finish(const csgrt_model* model, size_t region, csgrt_finish* finish);
 
 /// csgrt::SolidInfo
@@ -394,6 +399,30 @@ typedef struct csgrt_solid_info {
 /// Fills `info` with the solid that has the id `index`.
 CSGRT_API csgrt_status csgrt_model_solid(const csgrt_model* model, size_t index, csgrt_solid_info* info);
 CSGRT_API csgrt_status csgrt_model_warning(const csgrt_model* model, size_t index, csgrt_diagnostic* warning);
+
+/// csgrt::ChildInfo
+typedef struct csgrt_child_info {
+    size_t size;
+    /// The way down to it, "/top/.../name": what Edit and placement_of() take.
+    const char* path;
+    /// The last part of the path.
+    const char* name;
+    /// The object's name, which several members may have.
+    const char* object;
+    /// "combination", "region", or BRL-CAD's name of the solid's type: ell, tgc, and so on.
+    const char* type;
+    /// What joins it to the children before it, as BRL-CAD lists a tree; a union for the first.
+    int op;
+} csgrt_child_info;
+/// Called with `user` and a child, whose texts are valid until it returns. 0 ends the call, without a failure.
+typedef int (*csgrt_take_child)(void* user, const csgrt_child_info* child);
+/// The members of the combination at the end of a path; "/": the objects that are rendered.
+CSGRT_API csgrt_status csgrt_model_children(const csgrt_model* model, const char* path, csgrt_take_child take,
+                                            void* user);
+/// The matrix of a path's last member, row by row.
+CSGRT_API csgrt_status csgrt_model_matrix_of(const csgrt_model* model, const char* path, double matrix[16]);
+/// All matrices on the way down a path, the last one too: from the object's coordinates to the world's.
+CSGRT_API csgrt_status csgrt_model_placement_of(const csgrt_model* model, const char* path, double matrix[16]);
 
 // ---- Rays ----
 
@@ -713,19 +742,27 @@ CSGRT_API csgrt_status csgrt_edit_set_state(csgrt_edit* edit, const char* path, 
 CSGRT_API csgrt_status csgrt_edit_set_lights(csgrt_edit* edit, const csgrt_light* lights, size_t count);
 CSGRT_API csgrt_status csgrt_edit_set_ambient(csgrt_edit* edit, double intensity);
 CSGRT_API csgrt_status csgrt_edit_set_background(csgrt_edit* edit, const csgrt_vec3* color);
-/// Sets the matrix of a path's last member. `share_all`: 1 for all instances that share the member, 0 for only this
-/// instance.
+/// Sets the matrix of a path's last member; of a path of one part, the matrix of a top object. `share_all`: 1 for all
+/// instances that share the member, 0 for only this instance.
 CSGRT_API csgrt_status csgrt_edit_set_matrix(csgrt_edit* edit, const char* path, const double matrix[16],
                                              int share_all);
-/// Gives the model's solid `solid` the shape of the scene's solid `name`.
+/// Multiplies the placement of a path (csgrt_model_placement_of()) by `matrix`, on the left: it moves in the world.
+CSGRT_API csgrt_status csgrt_edit_move(csgrt_edit* edit, const char* path, const double matrix[16], int share_all);
+/// Gives the model's solid `solid` the shape of the scene's solid `name`. If `name` is a combination of one solid, its
+/// matrix counts, too.
 CSGRT_API csgrt_status csgrt_edit_replace(csgrt_edit* edit, const char* solid, const csgrt_scene* scene,
                                           const char* name);
 /// Adds a scene's object to the model. `top`: 1 makes it one of the top objects.
 CSGRT_API csgrt_status csgrt_edit_add(csgrt_edit* edit, const csgrt_scene* scene, const char* name, int top);
+/// Renders an object that the scene of the model has. `matrix`: its place, 16 numbers, or NULL.
+CSGRT_API csgrt_status csgrt_edit_add_top(csgrt_edit* edit, const char* object, const double* matrix);
 /// Adds a member to a combination: its tree becomes tree `op` member. `matrix`: 16 numbers, or NULL.
 CSGRT_API csgrt_status csgrt_edit_add_leg(csgrt_edit* edit, const char* combination, csgrt_operator op,
                                           const char* object, const double* matrix);
 CSGRT_API csgrt_status csgrt_edit_remove(csgrt_edit* edit, const char* path);
+/// Removes the last member of a path, as csgrt_edit_remove() does, and deletes its object and all below it that nothing
+/// else uses.
+CSGRT_API csgrt_status csgrt_edit_erase(csgrt_edit* edit, const char* path);
 /// Makes the next model. The edits stay in `edit`.
 CSGRT_API csgrt_status csgrt_edit_commit(const csgrt_edit* edit, csgrt_model** model);
 
@@ -768,6 +805,7 @@ CSGRT_API void csgrt_scene_info_init(csgrt_scene_info* scene_info);
 CSGRT_API void csgrt_model_info_init(csgrt_model_info* model_info);
 CSGRT_API void csgrt_region_info_init(csgrt_region_info* region_info);
 CSGRT_API void csgrt_solid_info_init(csgrt_solid_info* solid_info);
+CSGRT_API void csgrt_child_info_init(csgrt_child_info* child_info);
 CSGRT_API void csgrt_rays_init(csgrt_rays* rays);
 CSGRT_API void csgrt_partition_arrays_init(csgrt_partition_arrays* partition_arrays);
 CSGRT_API void csgrt_hits_init(csgrt_hits* hits);
@@ -793,6 +831,7 @@ CSGRT_API void csgrt_verification_init(csgrt_verification* verification);
 #define CSGRT_MODEL_INFO {sizeof(csgrt_model_info), {{0, 0, 0}, {0, 0, 0}}, 0, 0, 0, 0}
 #define CSGRT_REGION_INFO {sizeof(csgrt_region_info), "", 0, 0, 0, 0, 0, {1, 1, 1}, 0, {{0, 0, 0}, {0, 0, 0}}}
 #define CSGRT_SOLID_INFO {sizeof(csgrt_solid_info), "", "", 0}
+#define CSGRT_CHILD_INFO {sizeof(csgrt_child_info), "", "", "", "", 1}
 #define CSGRT_RAYS {sizeof(csgrt_rays), NULL, 0, NULL, {0, HUGE_VAL}, NULL, 0, 0}
 #define CSGRT_PARTITION_ARRAYS {sizeof(csgrt_partition_arrays), 0, 0, 0, 0, NULL, NULL, NULL, NULL, NULL, NULL, \
     NULL, NULL, NULL, NULL, NULL, NULL, NULL}

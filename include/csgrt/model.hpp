@@ -38,6 +38,16 @@ struct SolidInfo {
     std::uint32_t piece = 0;  ///< Index, from 0, among the solids into which csgrt cuts a pipe.
 };
 
+/// An object in a tree: a member of a combination, or an object that is rendered.
+struct ChildInfo {
+    std::string path = {};    ///< The way down to it, "/top/.../name": what Edit and placement_of() take.
+    std::string name = {};    ///< The last part of the path.
+    std::string object = {};  ///< The object's name, which several members may have.
+    std::string type = {};    ///< "combination", "region", or BRL-CAD's name of the solid's type: ell, tgc, and so on.
+    /// What joins it to the children before it, as BRL-CAD lists a tree; a union for the first.
+    Operator op = Operator::union_;
+};
+
 /// A compiled scene. It never changes, so any number of threads and Renderers may use it. Copies share the compiled
 /// model. A child of fork() may use a Model of its parent.
 class CSGRT_API Model {
@@ -54,6 +64,8 @@ public:
     const Box& bounds() const;
     /// The regions. Partitions::region_ids are indices into this list.
     const std::vector<RegionInfo>& regions() const;
+    /// The index of the region that has a path; -1: none has.
+    std::int32_t region(const std::string& path) const;
     /// The solids. Partitions::in_solids are indices into this list.
     const std::vector<SolidInfo>& solids() const;
     /// Faults that the scene's reader tolerated, objects that were left out, and other notes, each once per object and
@@ -63,6 +75,17 @@ public:
     double tolerance() const;
     /// The scene with all edits. A Model compiled from it is the same as this one.
     Scene scene() const;
+
+    // The next functions tell the positions of regions, and of all objects above and below them. They take a path as
+    // Edit does, and throw Error (usage) if it leads to no object.
+
+    /// The matrix of a path's last member, in its parent: what Edit::set_matrix() sets.
+    Matrix matrix_of(const std::string& path) const;
+    /// The product of all matrices on the way down a path: from the object's coordinates to the world's. Edit::move()
+    /// multiplies it.
+    Matrix placement_of(const std::string& path) const;
+    /// The members of a combination, in the order of its tree; of a solid none. "/": the objects that are rendered.
+    std::vector<ChildInfo> children(const std::string& path = "/") const;
 
     /// The rays of a whole view in double precision, one for each pixel. Throws Error (usage).
     RayGrid grid_of(const View& view) const;

@@ -118,7 +118,7 @@ enum class State : std::uint8_t {
 
 /// The appearance of the regions at a path, in place of their combinations' attributes.
 struct Look {
-    std::string path = {};           ///< a RegionInfo::path, or its beginning up to a '/' for all regions below
+    std::string path = {};  ///< a RegionInfo::path, or its beginning up to a '/' for all regions below; "/": all regions
     std::optional<Vec3> color = {};  ///< red, green, blue; 0 to 1
     std::optional<Finish> finish = {};
     std::optional<State> state = {};
@@ -157,6 +157,9 @@ struct Scene {
     std::vector<Object> objects = {};   ///< in the order of the file
     std::vector<std::string> top = {};  ///< the objects to render by default; empty: every object that no other object
                                         ///< uses
+    /// The places of the objects of `top`, one each, from their coordinates to the world's. Empty: all stand where they
+    /// are.
+    std::vector<Matrix> top_matrices = {};
     std::vector<RegionColor> region_colors = {};
     std::vector<Look> looks = {};  ///< if two concern one region, the later one counts; looks of no region have no
                                    ///< effect
@@ -173,6 +176,9 @@ struct Scene {
 
 /// The object with a name, or at the end of a path ("all.g/tor.r"), or nullptr. Valid until `scene.objects` changes.
 CSGRT_API const Object* object_at(const Scene& scene, const std::string& path);
+
+/// BRL-CAD's name of a solid's type, "region" or "combination".
+CSGRT_API const char* type_name(const Object& object);
 
 /// The name and the place of a solid or a combination; valid as long as the object.
 CSGRT_API const std::string& name_of(const Object& object);

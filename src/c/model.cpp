@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "c/described.hpp"
 
 using namespace csgrt;
@@ -26,6 +28,35 @@ csgrt_status csgrt_model_get_info(const csgrt_model* model, csgrt_model_info* in
 
 csgrt_status csgrt_model_region(const csgrt_model* model, size_t index, csgrt_region_info* info) {
     return call([&] { fill(info, shown<csgrt_region_info>(item(CSGRT_NEED(model).model.regions(), index)), "info"); });
+}
+
+csgrt_status csgrt_model_find_region(const csgrt_model* model, const char* path, int32_t* index) {
+    return call([&] { CSGRT_NEED(index) = CSGRT_NEED(model).model.region(&CSGRT_NEED(path)); });
+}
+
+csgrt_status csgrt_model_children(const csgrt_model* model, const char* path, csgrt_take_child take, void* user) {
+    return call([&] {
+        if (!take) refuse("take is NULL");
+        for (const ChildInfo& child : CSGRT_NEED(model).model.children(&CSGRT_NEED(path))) {
+            csgrt_child_info info = shown<csgrt_child_info>(child);
+            info.size = sizeof info;
+            if (take(user, &info) == 0) return;
+        }
+    });
+}
+
+csgrt_status csgrt_model_matrix_of(const csgrt_model* model, const char* path, double matrix[16]) {
+    return call([&] {
+        const Matrix found = CSGRT_NEED(model).model.matrix_of(&CSGRT_NEED(path));
+        std::ranges::copy(found, &CSGRT_NEED(matrix));
+    });
+}
+
+csgrt_status csgrt_model_placement_of(const csgrt_model* model, const char* path, double matrix[16]) {
+    return call([&] {
+        const Matrix found = CSGRT_NEED(model).model.placement_of(&CSGRT_NEED(path));
+        std::ranges::copy(found, &CSGRT_NEED(matrix));
+    });
 }
 
 csgrt_status csgrt_model_finish(const csgrt_model* model, size_t region, csgrt_finish* finish) {
@@ -112,6 +143,13 @@ csgrt_status csgrt_edit_set_matrix(csgrt_edit* edit, const char* path, const dou
     });
 }
 
+csgrt_status csgrt_edit_move(csgrt_edit* edit, const char* path, const double matrix[16], int share_all) {
+    return call([&] {
+        CSGRT_NEED(edit).edit.move(&CSGRT_NEED(path), matrix_of(&CSGRT_NEED(matrix)),
+                                   share_all ? Edit::Share::all : Edit::Share::alone);
+    });
+}
+
 namespace {
 
 const Object& object_in(const csgrt_scene& scene, const std::string& name) {
@@ -124,14 +162,24 @@ const Object& object_in(const csgrt_scene& scene, const std::string& name) {
 
 csgrt_status csgrt_edit_replace(csgrt_edit* edit, const char* solid, const csgrt_scene* scene, const char* name) {
     return call([&] {
-        const Solid* from = std::get_if<Solid>(&object_in(CSGRT_NEED(scene), &CSGRT_NEED(name)));
-        if (!from) refuse("'" + std::string(name) + "' is a combination, expected a solid");
-        CSGRT_NEED(edit).edit.replace(&CSGRT_NEED(solid), from->shape);
+        const Object* from = &object_in(CSGRT_NEED(scene), &CSGRT_NEED(name));
+        Matrix matrix = identity;
+        if (const auto* moved = std::get_if<Combination>(from); moved && moved->tree.nodes.size() == 1) {
+            matrix = moved->tree.nodes[0].matrix;
+            from = &object_in(*scene, moved->tree.nodes[0].object);
+        }
+        if (!std::holds_alternative<Solid>(*from))
+            refuse("'" + std::string(name) + "' is a combination, expected a solid or a combination of one solid");
+        CSGRT_NEED(edit).edit.replace(&CSGRT_NEED(solid), std::get<Solid>(*from).shape, matrix);
     });
 }
 
 csgrt_status csgrt_edit_add(csgrt_edit* edit, const csgrt_scene* scene, const char* name, int top) {
     return call([&] { CSGRT_NEED(edit).edit.add(object_in(CSGRT_NEED(scene), &CSGRT_NEED(name)), top != 0); });
+}
+
+csgrt_status csgrt_edit_add_top(csgrt_edit* edit, const char* object, const double* matrix) {
+    return call([&] { CSGRT_NEED(edit).edit.add_top(&CSGRT_NEED(object), matrix_of(matrix)); });
 }
 
 csgrt_status csgrt_edit_add_leg(csgrt_edit* edit, const char* combination, csgrt_operator op, const char* object,
@@ -144,6 +192,10 @@ csgrt_status csgrt_edit_add_leg(csgrt_edit* edit, const char* combination, csgrt
 
 csgrt_status csgrt_edit_remove(csgrt_edit* edit, const char* path) {
     return call([&] { CSGRT_NEED(edit).edit.remove(&CSGRT_NEED(path)); });
+}
+
+csgrt_status csgrt_edit_erase(csgrt_edit* edit, const char* path) {
+    return call([&] { CSGRT_NEED(edit).edit.erase(&CSGRT_NEED(path)); });
 }
 
 csgrt_status csgrt_edit_commit(const csgrt_edit* edit, csgrt_model** model) {

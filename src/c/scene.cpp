@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <charconv>
 
 #include "c/described.hpp"
@@ -190,7 +191,18 @@ csgrt_status csgrt_scene_set_lights(csgrt_scene* scene, const csgrt_light* light
 }
 
 csgrt_status csgrt_scene_set_top(csgrt_scene* scene, const char* const* objects, size_t count) {
-    return call([&] { CSGRT_NEED(scene).scene.top = texts(objects, count, "objects"); });
+    return call([&] {
+        CSGRT_NEED(scene).scene.top = texts(objects, count, "objects");
+        scene->scene.top_matrices.clear();
+    });
+}
+
+csgrt_status csgrt_scene_set_top_matrices(csgrt_scene* scene, const double* matrices, size_t count) {
+    return call([&] {
+        std::vector<Matrix> all;
+        for (std::size_t i = 0; i < count; ++i) all.push_back(matrix_of(&needed(matrices, "matrices") + 16 * i));
+        CSGRT_NEED(scene).scene.top_matrices = std::move(all);
+    });
 }
 
 csgrt_status csgrt_scene_get_info(const csgrt_scene* scene, csgrt_scene_info* info) {
@@ -223,15 +235,20 @@ csgrt_status csgrt_scene_object(const csgrt_scene* scene, size_t index, const ch
     return call([&] {
         const Object& object = item(CSGRT_NEED(scene).scene.objects, index);
         if (name) *name = name_of(object).c_str();
-        if (type) {
-            const Solid* solid = std::get_if<Solid>(&object);
-            *type = solid ? type_name(solid->shape) : std::get<Combination>(object).region ? "region" : "combination";
-        }
+        if (type) *type = type_name(object);
     });
 }
 
 csgrt_status csgrt_scene_top(const csgrt_scene* scene, size_t index, const char** object) {
     return call([&] { CSGRT_NEED(object) = item(CSGRT_NEED(scene).scene.top, index).c_str(); });
+}
+
+csgrt_status csgrt_scene_top_matrix(const csgrt_scene* scene, size_t index, double matrix[16]) {
+    return call([&] {
+        const Scene& s = CSGRT_NEED(scene).scene;
+        static_cast<void>(item(s.top, index));
+        std::ranges::copy(s.top_matrices.empty() ? identity : item(s.top_matrices, index), &CSGRT_NEED(matrix));
+    });
 }
 
 csgrt_status csgrt_scene_warning(const csgrt_scene* scene, size_t index, csgrt_diagnostic* warning) {

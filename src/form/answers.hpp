@@ -110,6 +110,19 @@ inline constexpr auto of<SolidInfo> = Form{
     required("piece", &SolidInfo::piece, amount, "Index, from 0, among the solids into which csgrt cuts a pipe."),
 };
 
+template <>
+inline constexpr auto of<ChildInfo> = Form{
+    plain("child_info"),
+    required("path", &ChildInfo::path, text,
+             "The way down to it, \"/top/.../name\": what Edit and placement_of() take."),
+    required("name", &ChildInfo::name, text, "The last part of the path."),
+    required("object", &ChildInfo::object, text, "The object's name, which several members may have."),
+    required("type", &ChildInfo::type, text,
+             "\"combination\", \"region\", or BRL-CAD's name of the solid's type: ell, tgc, and so on."),
+    required("op", &ChildInfo::op, Named{&operator_names},
+             "What joins it to the children before it, as BRL-CAD lists a tree; a union for the first."),
+};
+
 using Milliseconds = decltype(Statistics::ms);
 constexpr auto milliseconds(Key key, double Milliseconds::*member, const char* help = "") {
     return required(key, Inside{&Statistics::ms, member}, number, help);

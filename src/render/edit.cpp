@@ -12,6 +12,8 @@
 #include "scene/faults/finding_list.hpp"
 #include "scene/faults/objects.hpp"
 #include "scene/nearest.hpp"
+#include "scene/object_path.hpp"
+#include "scene/vector.hpp"
 
 namespace csgrt {
 
@@ -28,20 +30,14 @@ struct Edit::Impl {
         return *scene;
     }
     std::vector<std::string>& rendered() { return source.objects.empty() ? changed().top : source.objects; }
+    /// The number of a path among them, or -1. Throws if it is all that is rendered.
+    std::ptrdiff_t root(const std::string& path);
     void add(Look look);
-    void check_values() const;
     bool changes_tables_alone(const AppearanceTable& table) const;
     ModelSource next() const;
 };
 
 namespace {
-
-/// Normalises a path, to the form of regions' paths.
-std::string normal(const std::string& path) {
-    const std::size_t first = path.find_first_not_of('/'), last = path.find_last_not_of('/');
-    if (first == std::string::npos) throw Error(Status::usage, "the path '" + path + "' names nothing");
-    return "/" + path.substr(first, last - first + 1);
-}
 
 /// Joins lists of appearances: first the earlier entries, without those that later entries replace completely, then the
 /// later entries. So the list does not grow when the same paths are edited again.
@@ -66,6 +62,15 @@ std::vector<Look> joined(std::vector<Look> all, const std::vector<Look>& later) 
         if (all[i].color || all[i].finish || all[i].state) kept.push_back(std::move(all[i]));
     }
     return kept;
+}
+
+/// Throws Error (scene) for colours and other values that a scene must not have.
+void check_values(const Scene& values) {
+    FindingList findings;
+    check_settings(values, [&](const Place& place, const std::string& message, const std::string& suggestion) {
+        findings.add({place, message, suggestion, {}});
+    });
+    if (!findings.empty()) throw Error(Status::scene, findings.take());
 }
 
 /// Throws Error (usage) for an appearance that concerns none of the regions.
@@ -103,8 +108,18 @@ Edit::Edit(Edit&&) noexcept = default;
 Edit& Edit::operator=(Edit&&) noexcept = default;
 
 void Edit::Impl::add(Look look) {
-    look.path = normal(look.path);
+    look.path = normal_path(look.path);
+    check_values({.looks = {look}});
     looks.push_back(std::move(look));
+}
+
+std::ptrdiff_t Edit::Impl::root(const std::string& path) {
+    const std::string whole = normal_path(path);
+    const std::vector<std::string>& all = rendered();
+    const auto found = std::ranges::find_if(all, [&](const std::string& name) { return normal_path(name) == whole; });
+    if (found == all.end()) return -1;
+    if (all.size() == 1) throw Error(Status::usage, "'" + path + "' is all that is rendered");
+    return found - all.begin();
 }
 
 Edit& Edit::set_color(const std::string& path, const Vec3& color) {
@@ -139,22 +154,55 @@ Edit& Edit::set_background(const Vec3& color) {
 
 Edit& Edit::set_matrix(const std::string& path, const Matrix& matrix, Share share) {
     const FloatingPoint own;
-    set_member_matrix(impl_->changed(), impl_->rendered(), path, matrix, share == Share::alone);
+    place_object(impl_->changed(), impl_->rendered(), path, matrix, share == Share::alone);
     return *this;
 }
 
-Edit& Edit::replace(const std::string& solid, Shape shape) {
+Edit& Edit::move(const std::string& path, const Matrix& matrix, Share share) {
     const FloatingPoint own;
-    replace_shape(impl_->changed(), solid, std::move(shape));
+    Scene& scene = impl_->changed();
+    if (normal_path(path) != "/") {
+        move_object(scene, impl_->rendered(), path, matrix, share == Share::alone);
+    } else if (impl_->source.objects.empty()) {
+        scene.top_matrices.resize(scene.top.size(), identity);
+        for (Matrix& place : scene.top_matrices) place = compose(matrix, place);
+    } else {
+        for (const std::string& root : impl_->source.objects)
+            move_object(scene, impl_->source.objects, root, matrix, share == Share::alone);
+    }
+    return *this;
+}
+
+Edit& Edit::replace(const std::string& solid, Shape shape, const Matrix& matrix) {
+    const FloatingPoint own;
+    replace_shape(impl_->changed(), solid, std::move(shape), matrix);
     return *this;
 }
 
 Edit& Edit::add(Object object, bool top) {
     Scene& scene = impl_->changed();
-    if (scene.find(name_of(object)) != nullptr)
-        throw Error(Status::usage, "the scene has an object '" + name_of(object) + "' already");
-    if (top) impl_->rendered().push_back(name_of(object));
+    const std::string name = name_of(object);
+    if (scene.find(name) != nullptr)
+        throw Error(Status::usage, {Diagnostic{.message = "the scene has an object '" + name + "' already",
+                                               .suggestion = "add_top() renders it, replace() gives a solid another "
+                                                             "shape, erase() deletes it; or take another name"}});
     scene.objects.push_back(std::move(object));
+    if (top) add_top(name);
+    return *this;
+}
+
+Edit& Edit::add_top(const std::string& object, const Matrix& matrix) {
+    const FloatingPoint own;
+    Scene& scene = impl_->changed();
+    std::vector<std::string>& rendered = impl_->rendered();
+    if (scene.find(object) == nullptr)
+        throw Error(Status::usage, {Diagnostic{.message = "the scene has no object '" + object + "'",
+                                               .suggestion = did_you_mean_object(scene, object)}});
+    if (std::ranges::find(rendered, object) != rendered.end())
+        throw Error(Status::usage, {Diagnostic{.message = "'" + object + "' is rendered already",
+                                               .suggestion = "set_matrix() gives it another place"}});
+    if (&rendered == &impl_->source.objects) rendered.push_back(object);
+    if (&rendered == &scene.top || matrix != identity) csgrt::add_top(scene, object, matrix);
     return *this;
 }
 
@@ -166,28 +214,24 @@ Edit& Edit::add(const std::string& combination, Operator op, const std::string& 
 
 Edit& Edit::remove(const std::string& path) {
     const FloatingPoint own;
-    std::vector<std::string>& rendered = impl_->rendered();
-    const std::string whole = normal(path);
-    const auto root = std::ranges::find_if(rendered, [&](const std::string& name) { return normal(name) == whole; });
-    if (root == rendered.end()) {
+    const std::ptrdiff_t root = impl_->root(path);
+    if (root < 0) {
         remove_member(impl_->changed(), path);
-        return *this;
+    } else if (impl_->source.objects.empty()) {
+        remove_top(impl_->changed(), path);
+    } else {
+        impl_->source.objects.erase(impl_->source.objects.begin() + root);
     }
-    if (rendered.size() == 1) throw Error(Status::usage, "'" + path + "' is all that is rendered");
-    rendered.erase(root);
     return *this;
 }
 
-/// Throws Error (scene) for colours and other values that a scene must not have.
-void Edit::Impl::check_values() const {
-    Scene values;
-    source.put_appearance(values);
-    values.looks = looks;  // the source's appearances are valid
-    FindingList findings;
-    check_settings(values, [&](const Place& place, const std::string& message, const std::string& suggestion) {
-        findings.add({place, message, suggestion, {}});
-    });
-    if (!findings.empty()) throw Error(Status::scene, findings.take());
+Edit& Edit::erase(const std::string& path) {
+    const FloatingPoint own;
+    std::vector<std::string>& objects = impl_->source.objects;
+    const std::ptrdiff_t root = impl_->root(path);
+    erase_object(impl_->changed(), impl_->rendered(), path);
+    if (root >= 0 && !objects.empty()) objects.erase(objects.begin() + root);
+    return *this;
 }
 
 /// Whether only tables change. They do not suffice if a region begins or ceases to emit light, since its number may
@@ -211,9 +255,12 @@ Model Edit::commit() const {
     const FloatingPoint own;
     const Impl& edit = *impl_;
     const AllowedThreads allowed(edit.source.settings.threads);
-    edit.check_values();
     const AppearanceTable table(edit.looks);
     ModelSource source = edit.next();
+    Scene values;
+    source.put_appearance(values);
+    values.looks.clear();  // valid since they were set
+    check_values(values);
     std::shared_ptr<const Model::Impl> made;
     if (edit.changes_tables_alone(table)) {
         CompiledScene painted = repainted(edit.before->scene, source, table);

@@ -6,6 +6,8 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <unordered_map>
 #include <vector>
 
 #include <csgrt/model.hpp>
@@ -16,6 +18,7 @@
 #include "pipeline/passes/native_tracer.hpp"
 #include "rays/calls.hpp"
 #include "reference/reference.hpp"
+#include "scene/names.hpp"
 
 namespace csgrt {
 
@@ -59,6 +62,19 @@ struct ModelSource {
     }
 };
 
+/// What is at a path, for one scene and its regions. Any thread.
+class PathIndex {
+public:
+    const Names& names(const Scene& scene) const;
+    /// The index of a region; -1: none has the path.
+    std::int32_t region(const std::vector<RegionInfo>& regions, const std::string& path) const;
+
+private:
+    mutable std::once_flag has_names_, has_regions_;
+    mutable std::optional<Names> names_;
+    mutable std::unordered_map<std::string_view, std::int32_t> regions_;
+};
+
 /// The scene, its compiled forms, and the tracers of the caller's thread. If pictures do not show some regions, there
 /// are two more compiled forms, in which only the shown regions or only the ghosts claim; they share nearly all tables.
 struct Model::Impl final : ListTracer {
@@ -67,6 +83,7 @@ struct Model::Impl final : ListTracer {
     double tolerance;     ///< millimetres, in double precision
     double compile_ms;    ///< the time of compiling the scene
     std::optional<CompiledScene> some_shown, some_ghosts;
+    PathIndex paths;
 
     /// Compiles the scene. Throws Error (scene, usage).
     explicit Impl(ModelSource of);

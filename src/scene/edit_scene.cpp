@@ -1,12 +1,15 @@
 #include "scene/edit_scene.hpp"
 
 #include <algorithm>
+#include <optional>
+#include <span>
 #include <unordered_set>
 #include <utility>
 
 #include "scene/names.hpp"
 #include "scene/object_path.hpp"
 #include "scene/operators.hpp"
+#include "scene/vector.hpp"
 
 namespace csgrt {
 
@@ -16,16 +19,31 @@ namespace {
     throw Error(Status::usage, {Diagnostic{.message = what, .suggestion = suggestion}});
 }
 
-/// The objects along a path. `least`: the least number of parts that the path must have.
-ObjectPath follow(const Scene& scene, const Names& names, const std::string& path, std::size_t least = 1) {
-    ObjectPath found = find_path(scene, names, path);
-    if (found.steps.empty()) refuse(found.fault, found.suggestion);
-    // The path is one name, so it does not tell the combination whose member the object is.
-    if (found.steps.size() < least) refuse("'" + path + "' is no leg of a combination: give the path that leads to it");
+constexpr const char* lead_to_it = "give the path that leads to it";
+
+/// The objects along a path that ends with a member.
+ObjectPath follow_to_member(const Scene& scene, const Names& names, const std::string& path) {
+    ObjectPath found = follow_path(scene, names, path);
+    // A path of one name does not tell the combination whose member the object is.
+    if (found.steps.size() < 2) refuse("'" + path + "' is no leg of a combination", lead_to_it);
     return found;
 }
 
+/// The number of an object in a list of objects that are rendered, or the size of the list.
+std::size_t position(const std::vector<std::string>& rendered, const std::string& path) {
+    const auto is_it = [whole = normal_path(path)](const std::string& root) { return normal_path(root) == whole; };
+    return static_cast<std::size_t>(std::ranges::find_if(rendered, is_it) - rendered.begin());
+}
+
 Tree& tree_of(Scene& scene, std::uint32_t object) { return std::get<Combination>(scene.objects[object]).tree; }
+
+/// "name~2", or with a higher number: a name that no object has, and none of `taken`.
+std::string free_name(const std::string& like, const Names& names, const std::unordered_set<std::string>& taken = {}) {
+    std::string name;
+    for (std::uint32_t number = 2; name.empty() || names.find(name) != Names::none || taken.contains(name);)
+        name = like + "~" + std::to_string(number++);
+    return name;
+}
 
 /// Copies combinations that an instance shares with other instances, so that an edit changes this instance only.
 class Unsharer {
@@ -76,11 +94,8 @@ private:
 
     std::uint32_t copied(std::uint32_t object) {
         Combination copy = std::get<Combination>(scene_.objects[object]);
-        std::string name;
-        for (std::uint32_t number = 2; name.empty() || names_.find(name) != Names::none || taken_.contains(name);)
-            name = copy.name + "~" + std::to_string(number++);
-        taken_.insert(name);
-        copy.name = std::move(name);
+        copy.name = free_name(copy.name, names_, taken_);
+        taken_.insert(copy.name);
         for (std::uint32_t node = 0; node < copy.tree.nodes.size(); ++node) {
             const std::uint32_t below = child(object, node);
             if (below < Names::left_out) ++users_[below];
@@ -141,17 +156,52 @@ void remove_leaf(Tree& tree, std::uint32_t leaf) {
 
 }  // namespace
 
-void set_member_matrix(Scene& scene, const std::vector<std::string>& rendered, const std::string& path,
-                       const Matrix& matrix, bool alone) {
+void add_top(Scene& scene, const std::string& object, const Matrix& matrix) {
+    if (scene.top.empty()) scene.top = top_objects(scene);
+    const std::size_t number = position(scene.top, object);
+    if (number == scene.top.size()) scene.top.push_back(object);
+    if (scene.top_matrices.empty() && matrix == identity) return;
+    scene.top_matrices.resize(scene.top.size(), identity);
+    scene.top_matrices[number] = matrix;
+}
+
+void remove_top(Scene& scene, const std::string& object) {
+    const std::size_t number = position(scene.top, object);
+    if (number == scene.top.size()) return;
+    scene.top.erase(scene.top.begin() + static_cast<std::ptrdiff_t>(number));
+    if (number < scene.top_matrices.size())
+        scene.top_matrices.erase(scene.top_matrices.begin() + static_cast<std::ptrdiff_t>(number));
+}
+
+void place_object(Scene& scene, const std::vector<std::string>& rendered, const std::string& path, const Matrix& matrix,
+                  bool alone) {
     const Names names(scene);
-    std::vector<ObjectPath::Step> steps = follow(scene, names, path, 2).steps;
+    std::vector<ObjectPath::Step> steps = follow_path(scene, names, path).steps;
+    if (steps.size() == 1) {
+        if (position(rendered, path) == rendered.size())
+            refuse("'" + path + "' is neither rendered by this name nor a leg of a combination", lead_to_it);
+        return add_top(scene, name_of(scene.objects[steps[0].object]), matrix);
+    }
     if (alone) Unsharer(scene, names, rendered).unshare(steps);
     tree_of(scene, steps[steps.size() - 2].object).nodes[steps.back().node].matrix = matrix;
 }
 
+void move_object(Scene& scene, const std::vector<std::string>& rendered, const std::string& path, const Matrix& matrix,
+                 bool alone) {
+    const Names names(scene);
+    const ObjectPath found = follow_path(scene, names, path);
+    const std::size_t last = found.steps.size() - 1;
+    std::optional<Matrix> own = compose(matrix, placement_of(names, found, last));
+    if (last > 0) own = divide(placement_of(names, found, last - 1), *own);
+    if (!own)
+        refuse("a matrix above '" + path + "' cannot be inverted, so that nothing below it can be moved",
+               "give that part another matrix first (set_matrix)");
+    place_object(scene, rendered, path, *own, alone);
+}
+
 void remove_member(Scene& scene, const std::string& path) {
     const Names names(scene);
-    const std::vector<ObjectPath::Step> steps = follow(scene, names, path, 2).steps;
+    const std::vector<ObjectPath::Step> steps = follow_to_member(scene, names, path).steps;
     const std::uint32_t parent = steps[steps.size() - 2].object, leaf = steps.back().node;
     Tree& tree = tree_of(scene, parent);
     for (std::uint32_t i = 0; i < tree.nodes.size(); ++i)  // numbered names of other leaves must not change
@@ -162,7 +212,7 @@ void remove_member(Scene& scene, const std::string& path) {
 
 void add_member(Scene& scene, const std::string& path, Operator op, const std::string& object, const Matrix& matrix) {
     const Names names(scene);
-    const std::uint32_t parent = follow(scene, names, path).object();
+    const std::uint32_t parent = follow_path(scene, names, path).object();
     if (names.is_solid(parent)) refuse("'" + path + "' is a solid: it has no legs");
     if (op == Operator::leaf || op == Operator::not_) refuse("a leg is added by an operator of two operands");
     if (names.find(object) == Names::none)
@@ -180,11 +230,72 @@ void add_member(Scene& scene, const std::string& path, Operator op, const std::s
     }
 }
 
-void replace_shape(Scene& scene, const std::string& path, Shape shape) {
+void replace_shape(Scene& scene, const std::string& path, Shape shape, const Matrix& matrix) {
     const Names names(scene);
-    auto* solid = std::get_if<Solid>(&scene.objects[follow(scene, names, path).object()]);
-    if (solid == nullptr) refuse("'" + path + "' is a combination: it has no numbers of its own");
-    solid->shape = std::move(shape);
+    std::uint32_t object = follow_path(scene, names, path).object();
+    const std::string name = name_of(scene.objects[object]);
+    if (auto* around = std::get_if<Combination>(&scene.objects[object])) {
+        std::vector<TreeNode>& nodes = around->tree.nodes;
+        const bool is_moved_solid = nodes.size() == 1 && nodes[0].object.starts_with(name + "~");
+        if (!is_moved_solid || !names.is_solid(names.child(object, 0)))
+            refuse("'" + path + "' is a combination: it has no numbers of its own");
+        nodes[0].matrix = matrix;
+        object = names.child(object, 0);
+    } else if (matrix != identity) {
+        // A region, so that paths stay where no region is around it.
+        Solid moved{free_name(name, names), {}, place_of(scene.objects[object])};
+        scene.objects[object] = Combination{.name = name,
+                                            .tree = tree(moved.name, matrix),
+                                            .region = true,
+                                            .material_id = 0,
+                                            .los = 0,
+                                            .place = moved.place};
+        object = static_cast<std::uint32_t>(scene.objects.size());
+        scene.objects.emplace_back(std::move(moved));
+    }
+    std::get<Solid>(scene.objects[object]).shape = std::move(shape);
+}
+
+void erase_object(Scene& scene, const std::vector<std::string>& rendered, const std::string& path) {
+    std::optional<Names> names(scene);
+    const ObjectPath found = follow_path(scene, *names, path);
+    const std::uint32_t object = found.object();
+    const bool is_member = found.steps.size() > 1;
+    std::vector<std::uint32_t> uses(scene.objects.size());
+    std::string users;
+    const auto use = [&](std::uint32_t used, const std::string& user) {
+        ++uses[used];
+        if (used == object) users += (users.empty() ? "" : ", ") + user;
+    };
+    for (std::uint32_t user = 0; user < scene.objects.size(); ++user) {
+        const std::span<const std::uint32_t> children = names->children(user);
+        for (std::uint32_t node = 0; node < children.size(); ++node) {
+            const bool is_it =
+                is_member && node == found.steps.back().node && user == found.steps[found.steps.size() - 2].object;
+            if (children[node] < Names::left_out && !is_it)
+                use(children[node], "'" + name_of(scene.objects[user]) + "'");
+        }
+    }
+    for (const std::vector<std::string>* roots : {&rendered, &std::as_const(scene.top)})
+        for (const std::string& root : *roots)
+            if (normal_path(root) != normal_path(path))
+                for (const ObjectPath::Step& step : find_path(scene, *names, root).steps)
+                    use(step.object, "the list of what is rendered");
+    if (!users.empty())
+        refuse("'" + name_of(scene.objects[object]) + "' has other uses: " + users,
+               "remove() takes it away here alone, and leaves the object");
+    std::vector<bool> is_gone(scene.objects.size());
+    for (std::vector<std::uint32_t> gone{object}; !gone.empty();) {
+        const std::uint32_t next = gone.back();
+        gone.pop_back();
+        is_gone[next] = true;
+        remove_top(scene, name_of(scene.objects[next]));
+        for (const std::uint32_t child : names->children(next))
+            if (child < Names::left_out && --uses[child] == 0) gone.push_back(child);
+    }
+    names.reset();
+    if (is_member) remove_member(scene, path);
+    std::erase_if(scene.objects, [&, i = std::size_t{0}](const Object&) mutable { return is_gone[i++]; });
 }
 
 }  // namespace csgrt

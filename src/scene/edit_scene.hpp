@@ -11,16 +11,27 @@ namespace csgrt {
 // All functions throw Error (usage), and change nothing, if a path leads to no object or to an object of the wrong
 // kind.
 
-/// Sets the matrix of the last member of a path. `alone`: for this instance only. Then combinations on the path that
-/// have other instances, or are among the `rendered` objects, are copied.
-void set_member_matrix(Scene& scene, const std::vector<std::string>& rendered, const std::string& path,
-                       const Matrix& matrix, bool alone);
+/// Makes an object a top object, or gives a top object another matrix. The scene must have the object.
+void add_top(Scene& scene, const std::string& object, const Matrix& matrix);
+/// Removes an object from the top objects, if it is one.
+void remove_top(Scene& scene, const std::string& object);
+/// Sets the matrix of the last member of a path. A path of one part must be among the `rendered` objects, and the top
+/// object's matrix is set. `alone`: for this instance only. Then combinations on the path that have other instances, or
+/// are among the `rendered` objects, are copied.
+void place_object(Scene& scene, const std::vector<std::string>& rendered, const std::string& path, const Matrix& matrix,
+                  bool alone);
+/// As place_object(), with the matrix that makes the path's placement `matrix` times the present placement.
+void move_object(Scene& scene, const std::vector<std::string>& rendered, const std::string& path, const Matrix& matrix,
+                 bool alone);
 /// Removes the last member of a path from its tree. The other operands of the operator above it stay. But if a
 /// difference removes operands from it, these are removed, too.
 void remove_member(Scene& scene, const std::string& path);
 /// Adds a member to the combination at the end of a path: its tree becomes tree `op` member.
 void add_member(Scene& scene, const std::string& path, Operator op, const std::string& object, const Matrix& matrix);
-/// Gives the solid at the end of a path another shape.
-void replace_shape(Scene& scene, const std::string& path, Shape shape);
+/// Gives the solid at the end of a path another shape. A moved one becomes a combination of the solid's name.
+void replace_shape(Scene& scene, const std::string& path, Shape shape, const Matrix& matrix);
+/// Removes a path, deletes its object, and what is below it and has no other use. Of the `rendered` objects the path
+/// may be one; the caller takes it from their list.
+void erase_object(Scene& scene, const std::vector<std::string>& rendered, const std::string& path);
 
 }  // namespace csgrt

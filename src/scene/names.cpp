@@ -115,6 +115,8 @@ Names::Names(const Scene& scene) : scene_(scene), first_child_(scene.objects.siz
     }
     first_child_[count] = children;
     children_.resize(children);
+    for (std::uint32_t i = 0; i < std::min(scene.top.size(), scene.top_matrices.size()); ++i)
+        top_.emplace(find(scene.top[i]), i);
     std::mutex mutex;
     for_chunks(count, chunk, 0, [&](std::size_t first, std::size_t last, std::size_t) {
         std::vector<std::uint32_t> sorted;

@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -35,6 +36,11 @@ public:
     const std::string& member_name(std::uint32_t object, std::size_t node) const {
         const auto found = member_names_.find(std::pair(object, static_cast<std::uint32_t>(node)));
         return found != member_names_.end() ? found->second : this->node(object, node).object;
+    }
+    /// The matrix of an object that is rendered by its name (Scene::top_matrices); else the identity.
+    const Matrix& top_matrix(std::uint32_t object) const {
+        const auto found = top_.find(object);
+        return found == top_.end() ? identity : scene_.top_matrices[found->second];
     }
     /// Whether different members may have the same path: a name holds a '/', or ends like a numbered name.
     bool has_ambiguous_names() const { return has_ambiguous_names_; }
@@ -75,6 +81,7 @@ private:
                                               // `children_`
     std::vector<Kind> kinds_;                 // for each object
     MemberNames member_names_;                // names of members that differ from their objects' names
+    std::unordered_map<std::uint32_t, std::uint32_t> top_;  // for objects of Scene::top: the index there
     bool has_ambiguous_names_ = false;
     std::vector<std::uint32_t> children_;
 };

@@ -8,6 +8,7 @@
 
 #include "base/floating_point.hpp"
 #include "scene/nearest.hpp"
+#include "scene/vector.hpp"
 
 namespace csgrt {
 
@@ -154,6 +155,31 @@ ObjectPath find_path(const Scene& scene, const Names& names, const std::string& 
         path = Follower(scene, names, text).follow();
     }
     return path;
+}
+
+ObjectPath follow_path(const Scene& scene, const Names& names, const std::string& text) {
+    ObjectPath found = find_path(scene, names, text);
+    if (found.steps.empty())
+        throw Error(Status::usage, {Diagnostic{.message = found.fault, .suggestion = found.suggestion}});
+    return found;
+}
+
+std::string normal_path(const std::string& path) {
+    const std::size_t first = path.find_first_not_of('/'), last = path.find_last_not_of('/');
+    if (first == std::string::npos && !path.empty()) return "/";
+    if (path.empty()) throw Error(Status::usage, "the path '" + path + "' names nothing");
+    return "/" + path.substr(first, last - first + 1);
+}
+
+const Matrix& matrix_of(const Names& names, const ObjectPath& path, std::size_t step) {
+    if (step == 0) return names.top_matrix(path.steps[0].object);
+    return names.node(path.steps[step - 1].object, path.steps[step].node).matrix;
+}
+
+Matrix placement_of(const Names& names, const ObjectPath& path, std::size_t step) {
+    Matrix matrix = matrix_of(names, path, 0);
+    for (std::size_t i = 1; i <= step; ++i) matrix = compose(matrix, matrix_of(names, path, i));
+    return matrix;
 }
 
 }  // namespace csgrt

@@ -29,6 +29,18 @@ struct ObjectPath {
 /// have the same object, the first of them has the object's name.
 ObjectPath find_path(const Scene& scene, const Names& names, const std::string& text);
 
+/// As find_path(). Throws Error (usage) if the path leads to no object.
+ObjectPath follow_path(const Scene& scene, const Names& names, const std::string& text);
+
+/// A path in the form of regions' paths; "/": all. Throws Error (usage) for an empty path.
+std::string normal_path(const std::string& path);
+
+/// The matrix of the member at step `step` of a path, in the tree of the step before; at step 0 the matrix of a top
+/// object.
+const Matrix& matrix_of(const Names& names, const ObjectPath& path, std::size_t step);
+/// From the coordinates of the object at step `step` of a path to the world's.
+Matrix placement_of(const Names& names, const ObjectPath& path, std::size_t step);
+
 /// The suggestion for a misspelt name of an object; see did_you_mean.
 std::string did_you_mean_object(const Scene& scene, std::string_view wrong);
 

@@ -16,6 +16,11 @@ const char* type_name(const Shape& shape) {
     return std::visit([]<class S>(const S&) { return form::of<S>.head.name; }, shape);
 }
 
+const char* type_name(const Object& object) {
+    if (const auto* solid = std::get_if<Solid>(&object)) return type_name(solid->shape);
+    return std::get<Combination>(object).region ? "region" : "combination";
+}
+
 const Object* Scene::find(const std::string& name) const {
     const auto found =
         std::find_if(objects.begin(), objects.end(), [&](const Object& object) { return name_of(object) == name; });

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <optional>
 
 #include <csgrt/scene.hpp>
 
@@ -42,6 +43,23 @@ inline Matrix compose(const Matrix& outer, const Matrix& inner) {
         }
     }
     return m;
+}
+
+/// Solves outer x = inner for the matrix x. Nothing if `outer` is not affine, or its inverse has an infinite number.
+inline std::optional<Matrix> divide(const Matrix& outer, const Matrix& inner) {
+    const Vec3 x{outer[0], outer[4], outer[8]}, y{outer[1], outer[5], outer[9]}, z{outer[2], outer[6], outer[10]};
+    const double volume = dot(x, cross(y, z));
+    const Vec3 rows[] = {1 / volume * cross(y, z), 1 / volume * cross(z, x), 1 / volume * cross(x, y)};
+    Matrix inverse = identity;
+    for (std::size_t row = 0; row < 3; ++row) {
+        const Vec3& r = rows[row];
+        const double numbers[] = {r.x, r.y, r.z, -dot(r, {outer[3], outer[7], outer[11]})};
+        for (std::size_t column = 0; column < 4; ++column) inverse[4 * row + column] = numbers[column];
+    }
+    const bool is_affine = outer[12] == 0 && outer[13] == 0 && outer[14] == 0 && outer[15] == 1;
+    for (const double number : inverse)
+        if (!is_affine || !std::isfinite(number)) return {};
+    return compose(inverse, inner);
 }
 
 /// The difference from length 1 within which a vector counts as a unit vector and keeps its bits.

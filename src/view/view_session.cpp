@@ -79,7 +79,7 @@ std::vector<std::string> paths_of(const Model& model) {
 
 /// Whether a region's path is `path` or lies below it.
 bool leads_somewhere(const std::vector<std::string>& paths, const std::string& path) {
-    return std::ranges::binary_search(paths, path) || [&] {
+    return path == "/" || std::ranges::binary_search(paths, path) || [&] {
         const auto next = std::ranges::lower_bound(paths, path + "/");
         return next != paths.end() && next->starts_with(path + "/");
     }();

@@ -114,6 +114,10 @@ TEST_CASE("every argument of C that is NULL is refused by its name", "[promise:c
                   "rays->list is NULL");
     CHECK_REFUSED(csgrt_partitions_get(partitions, nullptr), CSGRT_ERROR_USAGE, "arrays is NULL");
     CHECK_REFUSED(csgrt_model_region(nullptr, 0, nullptr), CSGRT_ERROR_USAGE, "model is NULL");
+    CHECK_REFUSED(csgrt_model_find_region(w.model, "/all", nullptr), CSGRT_ERROR_USAGE, "index is NULL");
+    CHECK_REFUSED(csgrt_model_children(w.model, "/", nullptr, nullptr), CSGRT_ERROR_USAGE, "take is NULL");
+    CHECK_REFUSED(csgrt_model_matrix_of(w.model, "/all", nullptr), CSGRT_ERROR_USAGE, "matrix is NULL");
+    CHECK_REFUSED(csgrt_scene_set_top_matrices(w.scene, nullptr, 1), CSGRT_ERROR_USAGE, "matrices is NULL");
     CHECK_REFUSED(csgrt_edit_set_color(nullptr, "x", nullptr), CSGRT_ERROR_USAGE, "edit is NULL");
     CHECK_REFUSED(csgrt_scene_add_solid(w.scene, "x", "sphere", nullptr, 1), CSGRT_ERROR_USAGE, "members is NULL");
     CHECK_REFUSED(csgrt_devices(nullptr), CSGRT_ERROR_USAGE, "count is NULL");
@@ -325,6 +329,7 @@ TEST_CASE("no number that C sets is taken if it is none, or has no end") {
                  camera.elevation, camera.perspective, eye, point, up, light.position, light.color, light.intensity,
                  light.angle, light.direction, finish.specular, finish.diffuse, finish.ambient, finish.transmit,
                  finish.reflect, finish.intensity, finish.fraction, finish.angle, red, matrix, vertices);
+    double place[16] = {1, 0, 0, 5, 0, 1, 0, 5, 0, 0, 1, 5, 0, 0, 0, 1};
     const auto edits = [&] {
         OwnedEdit edit;
         if (csgrt_edit_create(w.model, &edit) != CSGRT_OK || csgrt_edit_set_color(edit, "all", &red) != CSGRT_OK ||
@@ -332,13 +337,15 @@ TEST_CASE("no number that C sets is taken if it is none, or has no end") {
             csgrt_edit_set_lights(edit, &light, 1) != CSGRT_OK ||
             csgrt_edit_set_ambient(edit, info.ambient) != CSGRT_OK ||
             csgrt_edit_set_background(edit, &info.background) != CSGRT_OK ||
-            csgrt_edit_set_matrix(edit, "all/wheel", matrix, 0) != CSGRT_OK)
+            csgrt_edit_set_matrix(edit, "all/wheel", matrix, 0) != CSGRT_OK ||
+            csgrt_edit_set_matrix(edit, "all", place, 0) != CSGRT_OK)
             return CSGRT_ERROR_USAGE;
         return csgrt_edit_commit(edit, &model);
     };
     check_no_end("an edit", edits, red, finish.specular, finish.diffuse, finish.ambient, finish.transmit,
                  finish.reflect, finish.intensity, finish.fraction, finish.angle, point, up, light.position,
-                 light.color, light.intensity, light.angle, light.direction, info.ambient, info.background, matrix);
+                 light.color, light.intensity, light.angle, light.direction, info.ambient, info.background, matrix,
+                 place);
 }
 
 TEST_CASE("scenes are built in C of solids by the names of their members, meshes and trees", "[promise:c]") {

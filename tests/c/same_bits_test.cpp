@@ -340,6 +340,74 @@ TEST_CASE("pictures, partitions, hits, slices and points from C have the bits of
     }
 }
 
+TEST_CASE("places, children, moves and top objects in C are those of C++", "[promise:c]") {
+    const Wheels w;
+    const Matrix turn{0, -1, 0, 7, 1, 0, 0, 60, 0, 0, 1, 5, 0, 0, 0, 1};
+    const auto matrix = [](const auto& call, const auto*... arguments) {
+        Matrix found;
+        REQUIRE_OK(call(arguments..., found.data()));
+        return found;
+    };
+    OwnedEdit c_edit;
+    OwnedModel c_model;
+    OwnedScene parts, lamp, edited;
+    const double center[] = {0, 0, 0}, radius = 3;
+    const csgrt_member members[] = {{"center", center, 3, 0, nullptr}, {"radius", &radius, 1, 0, nullptr}};
+    REQUIRE_OK(csgrt_scene_create(&lamp));
+    REQUIRE_OK(csgrt_scene_add_solid(lamp, "lamp", "sphere", members, 2));
+    REQUIRE_OK(csgrt_parse_scene(wheels, std::strlen(wheels), "wheels.json", nullptr, &parts));
+    REQUIRE_OK(csgrt_edit_create(w.model, &c_edit));
+    REQUIRE_OK(csgrt_edit_set_matrix(c_edit, "all/wheel@2", turn.data(), 0));
+    REQUIRE_OK(csgrt_edit_move(c_edit, "all/wheel@2/hub.r", turn.data(), 0));
+    REQUIRE_OK(csgrt_edit_move(c_edit, "/", turn.data(), 0));
+    REQUIRE_OK(csgrt_edit_add_top(c_edit, "hub.r", turn.data()));
+    REQUIRE_OK(csgrt_edit_add(c_edit, lamp, "lamp", 1));
+    CHECK_REFUSED(csgrt_edit_erase(c_edit, "/all/wheel@3"), CSGRT_ERROR_USAGE, "'wheel' has other uses");
+    REQUIRE_OK(csgrt_edit_erase(c_edit, "lamp"));
+    REQUIRE_OK(csgrt_edit_replace(c_edit, "box", parts, "hub.r"));
+    REQUIRE_OK(csgrt_edit_commit(c_edit, &c_model));
+    Edit edit(csgrt::Model(parse_scene(wheels, "wheels.json")));
+    edit.set_matrix("all/wheel@2", turn).move("all/wheel@2/hub.r", turn).move("/", turn).add_top("hub.r", turn);
+    const csgrt::Model model = edit.replace("box", Ell{{}, {10, 0, 0}, {0, 10, 0}, {0, 0, 10}}).commit();
+
+    for (const char* path : {"all", "hub.r", "/all/wheel@2", "/all/wheel@2/hub.r", "/all/wheel@2/rim.r/box"}) {
+        CHECK(matrix(csgrt_model_matrix_of, &*c_model.handle, path) == model.matrix_of(path));
+        CHECK(matrix(csgrt_model_placement_of, &*c_model.handle, path) == model.placement_of(path));
+        std::int32_t index = 0;
+        REQUIRE_OK(csgrt_model_find_region(c_model, path, &index));
+        CHECK(index == model.region(path));
+        std::string children, expected;
+        for (const ChildInfo& c : model.children(path))
+            expected += c.path + c.name + c.object + c.type + std::to_string(int(c.op));
+        const auto take = [](void* user, const csgrt_child_info* c) {
+            *static_cast<std::string*>(user) +=
+                std::string(c->path) + c->name + c->object + c->type + std::to_string(c->op);
+            return int(c->size == sizeof *c);
+        };
+        REQUIRE_OK(csgrt_model_children(c_model, path, take, &children));
+        CHECK(children == expected);
+    }
+    REQUIRE_OK(csgrt_model_scene(c_model, &edited));
+    std::size_t count = 0;
+    const auto first_alone = [](void* user, const csgrt_child_info*) {
+        return int(++*static_cast<std::size_t*>(user) < 1);
+    };
+    REQUIRE_OK(csgrt_model_children(c_model, "/", first_alone, &count));
+    CHECK(count == 1);
+    // Places go from scene to scene.
+    const Matrix places[] = {matrix([&](double* m) { return csgrt_scene_top_matrix(edited, 0, m); }),
+                             matrix([&](double* m) { return csgrt_scene_top_matrix(edited, 1, m); })};
+    CHECK((places[0] == turn && places[1] == turn));
+    const char* const top[] = {"all", "hub.r"};
+    REQUIRE_OK(csgrt_scene_set_top(edited, top, 2));
+    CHECK(matrix([&](double* m) { return csgrt_scene_top_matrix(edited, 0, m); }) == identity);
+    REQUIRE_OK(csgrt_scene_set_top_matrices(edited, places[0].data(), 1));
+    CHECK_REFUSED(csgrt_model_create(edited, nullptr, 0, nullptr, &c_model), CSGRT_ERROR_SCENE, "1 places for 2");
+    REQUIRE_OK(csgrt_scene_set_top_matrices(edited, places[0].data(), 2));
+    REQUIRE_OK(csgrt_model_create(edited, nullptr, 0, nullptr, &c_model));
+    CHECK(matrix(csgrt_model_matrix_of, &*c_model.handle, "hub.r") == turn);
+}
+
 // Each edit is written as a line of Python, too, which its interpreter runs.
 TEST_CASE("after 100 edits C++, C, librt's shape, the command and Python have the same bits",
           "[.interfaces][promise:c]") {

@@ -193,6 +193,7 @@ std::vector<std::string> made_of_header() {
             c_struct<Camera>(),
             c_struct<RegionInfo>(),
             c_struct<SolidInfo>(),
+            c_struct<ChildInfo>(),
             c_struct<Ray>(false),
             c_struct<RayRange>(false),
             c_struct<RayGrid>(false),
@@ -206,6 +207,7 @@ std::vector<std::string> made_of_header() {
             c_defaults<Camera>(),
             c_defaults<RegionInfo>(),
             c_defaults<SolidInfo>(),
+            c_defaults<ChildInfo>(),
             c_defaults<Statistics>(),
             c_defaults<View>()};
 }
@@ -285,10 +287,11 @@ std::string settings_page() {
            list<Settings>("csgrt::Settings") + list<LoadOptions>("csgrt::LoadOptions") + list<View>("csgrt::View") +
            list<Camera>("csgrt::Camera") + list<Fields>("csgrt::Fields") + list<RayRange>("csgrt::RayRange") +
            list<Slice>("csgrt::Slice") + list<RegionInfo>("csgrt::RegionInfo") + list<SolidInfo>("csgrt::SolidInfo") +
-           list<DeviceInfo>("csgrt::DeviceInfo") + list<Statistics>("csgrt::Statistics") +
-           "## Names and their numbers\n\n" + names_line("Precision", every_precision) +
-           names_line("Tolerance", every_tolerance) + names_line("State", state_names) +
-           names_line("Fastgen", fastgen_names) + names_line("Operator", operator_names) +
+           list<ChildInfo>("csgrt::ChildInfo") + list<DeviceInfo>("csgrt::DeviceInfo") +
+           list<Statistics>("csgrt::Statistics") + "## Names and their numbers\n\n" +
+           names_line("Precision", every_precision) + names_line("Tolerance", every_tolerance) +
+           names_line("State", state_names) + names_line("Fastgen", fastgen_names) +
+           names_line("Operator", operator_names) +
            names_line("Channels, whose sum is what a picture has", channel_names) +
            names_line("Status, which is the command's, too", status_names);
 }
@@ -422,6 +425,7 @@ TEST_CASE("each sentence stands in the C++ header") {
     require_sentences<Fields>("include/csgrt/partitions.hpp");
     require_sentences<RegionInfo>("include/csgrt/model.hpp");
     require_sentences<SolidInfo>("include/csgrt/model.hpp");
+    require_sentences<ChildInfo>("include/csgrt/model.hpp");
     require_sentences<DeviceInfo>("include/csgrt/device.hpp");
     require_sentences<Statistics>("include/csgrt/statistics.hpp");
 }

@@ -20,6 +20,7 @@ public:
         for (const Light& light : scene.lights)
             add(light.position, light.color, light.intensity, light.infinite, light.angle, light.direction);
         for (const std::string& name : scene.top) add(name);
+        add(scene.top_matrices);
         for (const RegionColor& range : scene.region_colors) add(range.low, range.high, range.color);
         for (const Object& object : scene.objects) {
             add(object.index(), name_of(object));

@@ -25,6 +25,7 @@ namespace {
     [[maybe_unused]] const RayPartitions partitions{.overlaps = {}};
     [[maybe_unused]] const RegionInfo region_info{.air = 1};
     [[maybe_unused]] const SolidInfo solid_info{.piece = 1};
+    [[maybe_unused]] const ChildInfo child_info{.op = Operator::xor_};
     [[maybe_unused]] const Statistics statistics{.rays = 1};
     [[maybe_unused]] const Light light{.intensity = 0.5};
     [[maybe_unused]] const RegionColor region_color{.high = 1};

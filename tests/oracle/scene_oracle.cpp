@@ -9,8 +9,12 @@ namespace csgrt::oracle {
 SceneOracle::SceneOracle(const Scene& scene, const std::vector<std::string>& objects, bool skip_unsupported,
                          bool filtered, bool air)
     : scene_(scene), skip_unsupported_(skip_unsupported), filtered_(filtered), air_(air) {
-    for (const std::string& name : objects.empty() ? top_objects(scene) : objects)
-        for (OracleRegion& region : starts(name, QAffine{}, "")) regions_.push_back(std::move(region));
+    const std::vector<std::string> names = objects.empty() ? top_objects(scene) : objects;
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        const bool is_placed = objects.empty() && !scene.top_matrices.empty();
+        for (OracleRegion& region : starts(names[i], is_placed ? to_affine(scene.top_matrices[i]) : QAffine{}, ""))
+            regions_.push_back(std::move(region));
+    }
     regions_of_.resize(solids_.size());
     for (std::uint32_t r = 0; r < regions_.size(); ++r)
         regions_[r].tree.each([&](std::size_t solid) { regions_of_[solid].push_back(r); });

@@ -34,12 +34,7 @@ std::string decimal(double value) {
 
 std::string objects_text(const Scene& scene) {
     std::map<std::string, std::size_t> types;
-    for (const Object& object : scene.objects) {
-        if (auto* solid = std::get_if<Solid>(&object))
-            ++types[type_name(solid->shape)];
-        else
-            ++types[std::get<Combination>(object).region ? "region" : "combination"];
-    }
+    for (const Object& object : scene.objects) ++types[type_name(object)];
     return count_text(types);
 }
 

@@ -89,7 +89,7 @@ void check_looks(const std::vector<Look>& looks, const std::vector<RegionInfo>& 
     for (const Look& look : looks) {
         const bool is_there = std::ranges::any_of(regions, [&](const RegionInfo& region) {
             return region.path.starts_with(look.path) &&
-                   (region.path.size() == look.path.size() || region.path[look.path.size()] == '/');
+                   (look.path == "/" || region.path.size() == look.path.size() || region.path[look.path.size()] == '/');
         });
         if (is_there) continue;
         std::vector<std::string_view> paths;

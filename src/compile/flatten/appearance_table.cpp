@@ -11,8 +11,8 @@ AppearanceTable::AppearanceTable(const std::vector<Look>& looks) : looks_(looks)
 std::vector<std::uint32_t> AppearanceTable::find(std::string_view path) const {
     std::vector<std::uint32_t> all;
     if (by_path_.empty()) return all;
-    for (std::size_t end = 1; end <= path.size(); ++end) {
-        if (end < path.size() && path[end] != '/') continue;
+    for (std::size_t end = 1; end <= path.size(); ++end) {  // from "/" on, which is all
+        if (end > 1 && end < path.size() && path[end] != '/') continue;
         const auto found = by_path_.find(path.substr(0, end));
         if (found != by_path_.end()) all.insert(all.end(), found->second.begin(), found->second.end());
     }

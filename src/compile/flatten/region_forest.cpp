@@ -43,7 +43,7 @@ RegionStart RegionForest::start_of(const ObjectPath& path) {
 }
 
 Matrix RegionForest::matrix_of(const RegionStart& start) const {
-    if (start.above == none) return identity;
+    if (start.above == none) return source_.names.top_matrix(start.object);
     const Above& above = above_[start.above];
     return compose(above.matrix, source_.names.node(above.object, start.node).matrix);
 }

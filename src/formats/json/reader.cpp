@@ -4,7 +4,9 @@
 #include <unordered_map>
 #include <unordered_set>
 
+#include "base/identical.hpp"
 #include "formats/brlcad/values.hpp"
+#include "formats/json/placement.hpp"
 #include "formats/json/read_form.hpp"
 #include "formats/json/scene_forms.hpp"
 #include "formats/json/solids.hpp"
@@ -208,13 +210,19 @@ private:
     }
 
     void read_top(const JsonNode& node) {
+        std::vector<Matrix> matrices;
         for (const JsonNode& item : items_of(node)) {
-            std::string name = item.name();
+            std::optional<JsonObject> placed;
+            if (item.is_object()) placed.emplace(json_object(item, form::placed));
+            std::string name = placed ? (*placed)["object"].name() : item.name();
+            matrices.push_back(placed ? read_json_placement(*placed).value_or(identity) : identity);
             if (!name.empty() && !index_.contains(name)) {
                 item.fault("there is no object '" + name + "'", did_you_mean_object(name));
             }
             scene_.top.push_back(std::move(name));
         }
+        const auto stays = [](const Matrix& matrix) { return same_bits(matrix, identity); };
+        if (!std::ranges::all_of(matrices, stays)) scene_.top_matrices = std::move(matrices);
     }
 
     /// Sorts the objects into the order that the file gives, in which solids and combinations may be mixed.

@@ -132,7 +132,8 @@ inline constexpr auto of<Scene> = Form{
                  "additionalProperties": {"$ref": "#/$defs/solid"}})"}),
     optional("combinations", nothing, Other{R"({"type": "object", "propertyNames": {"$ref": "#/$defs/name"},
                  "additionalProperties": {"$ref": "#/$defs/combination"}})"}),
-    optional("objects", nothing, List{name}, "What to render; every object that no other uses if not given."),
+    optional("objects", nothing, List{Other{R"({"oneOf": [{"$ref": "#/$defs/name"}, {"$ref": "#/$defs/placed"}]})"}},
+             "What to render, as it stands or placed; every object that no other uses if not given."),
     optional("order", nothing, Other{R"({"type": "array", "items": {"$ref": "#/$defs/name"}, "uniqueItems": true})"},
              "All objects in the order of the regions, if that is not the order of the file."),
     optional("region_colors", &Scene::region_colors, List{object<RegionColor>}),
@@ -168,6 +169,7 @@ inline constexpr auto leaf =
     node("leaf", "object", name, "",
          optional("name", nothing, name,
                   "In paths; that of the object, with a number from its second leaf on, if not given."));
+inline constexpr auto placed = node("placed", "object", name, "A top object in another place.");
 inline constexpr auto union_ = node("union", "union", one_or_more, "In any of them.");
 inline constexpr auto intersection = node("intersection", "intersection", one_or_more, "In all of them.");
 inline constexpr auto difference =

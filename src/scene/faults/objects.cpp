@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
+#include <unordered_map>
 
 #include "scene/operators.hpp"
 #include "scene/range.hpp"
@@ -24,8 +26,8 @@ bool is_color(const Vec3& color) {
 class Settings {
 public:
     explicit Settings(const Report& report) : report_(report) {}
-    void require(bool holds, const char* pointer, const std::string& message) const {
-        if (!holds) report_(Place{.file = {}, .pointer = pointer}, message, {});
+    void require(bool holds, const char* pointer, const std::string& message, const char* suggestion = "") const {
+        if (!holds) report_(Place{.file = {}, .pointer = pointer}, message, suggestion);
     }
 
 private:
@@ -110,6 +112,19 @@ void check_settings(const Scene& scene, const Report& report) {
         settings.require(not_negative(light.intensity), "/lights", "an intensity must be 0 or more, and finite");
         settings.require(in_range(light.angle, 0, 180), "/lights", "the angle of a beam must be from 0 to 180 degrees");
         settings.require(is_axis(light.direction), "/lights", "the direction of a beam must be finite, and not 0");
+    }
+    const std::size_t places = scene.top_matrices.size();
+    settings.require(
+        places == 0 || places == scene.top.size(), "/objects",
+        "there are " + std::to_string(places) + " places for " + std::to_string(scene.top.size()) + " top objects",
+        "Scene::top_matrices has one for each, or none");
+    std::unordered_map<std::string_view, const Matrix*> first;
+    for (std::size_t i = 0; i < std::min(places, scene.top.size()); ++i) {
+        const Place place{.file = {}, .pointer = "/objects/" + std::to_string(i)};
+        check_matrix({.object = scene.top[i], .matrix = scene.top_matrices[i], .place = place}, report);
+        if (*first.try_emplace(scene.top[i], &scene.top_matrices[i]).first->second != scene.top_matrices[i])
+            report(place, "'" + scene.top[i] + "' is rendered in two places",
+                   "make it a member of a combination twice: a top object has one place");
     }
     for (const Look& look : scene.looks)
         check_attributes({.name = look.path,

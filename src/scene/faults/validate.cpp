@@ -111,6 +111,9 @@ private:
                 continue;
             }
             roots.push_back(path.object());
+            if (path.steps.size() > 1 && named.empty() && !scene_.top_matrices.empty())
+                add({}, "the top object '" + name + "' is a path, and there are places",
+                    "give each top object by its name, or leave Scene::top_matrices empty");
             for (std::size_t i = 1; i < path.steps.size(); ++i)
                 check_matrix(names_.node(path.steps[i - 1].object, path.steps[i].node), report_);
         }

@@ -28,17 +28,21 @@ void check_round_trip(const Scene& scene) {
     CHECK(json_scene_text(again) == text);
 }
 
+Matrix random_matrix(Numbers& n) {
+    Matrix m = identity;
+    if (n.coin()) m[3] = n();
+    if (n.coin()) {
+        for (std::size_t k = 0; k < 12; ++k) m[k] = n();
+    }
+    return m;
+}
+
 Tree random_tree(Numbers& n) {
     Tree tree;
     std::size_t waiting = 0;
     const std::size_t leaves = n.below(12);
     for (std::size_t i = 0; i < leaves; ++i) {
-        Matrix m = identity;
-        if (n.coin()) m[3] = n();
-        if (n.coin()) {
-            for (std::size_t k = 0; k < 12; ++k) m[k] = n();
-        }
-        tree.nodes.push_back(leaf("object " + std::to_string(i), m));
+        tree.nodes.push_back(leaf("object " + std::to_string(i), random_matrix(n)));
         ++waiting;
         if (n.coin()) tree.nodes.push_back(node(Operator::not_, 1));
         if (waiting >= 2 && n.coin()) {
@@ -101,6 +105,8 @@ Scene random_scene(unsigned seed) {
         scene.objects.push_back(c);
     }
     if (n.coin()) scene.top = {"object 3", "object 0"};
+    if (!scene.top.empty() && n.coin()) scene.top_matrices = {random_matrix(n), identity};
+    if (!scene.top_matrices.empty() && scene.top_matrices[0] == identity) scene.top_matrices.clear();
     return scene;
 }
 

@@ -52,7 +52,8 @@ const json& sound_example(const std::string& form) {
         "look": {"path": "/c/s", "state": "hidden"},
         "region_color": {"low": 0, "high": 1, "color": [0, 0, 0]},
         "combination": {"tree": "s"},
-        "leaf": {"object": "s"}, "union": {"union": ["s"]}, "intersection": {"intersection": ["s"]},
+        "leaf": {"object": "s"}, "placed": {"object": "s"}, "union": {"union": ["s"]},
+        "intersection": {"intersection": ["s"]},
         "difference": {"difference": ["s", "s"]}, "xor": {"xor": ["s"]}, "not": {"not": "s"},
         "postfix": {"postfix": ["s"]}, "postfix_operator": {"operator": "not", "operands": 1},
         "rotation": {"axis": [0, 0, 1], "angle": 0}, "plane": {"normal": [0, 0, 1], "distance": 0},
@@ -127,6 +128,8 @@ std::string scene_with(const std::string& form, const json& object) {
         scene["combinations"]["c"] = object;
     else if (form == "postfix_operator")
         tree({{"postfix", {"s", object}}});
+    else if (form == "placed")
+        scene["objects"] = json::array({object});
     else if (form == "rotation")
         tree({{"object", "s"}, {"rotate", object}});
     else if (form == "plane")

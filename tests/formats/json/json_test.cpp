@@ -7,6 +7,7 @@
 #include "formats/json/parse_text.hpp"
 #include "formats/same_scene.hpp"
 #include "scene/vector.hpp"
+#include "thrown.hpp"
 
 using namespace csgrt;
 
@@ -53,6 +54,22 @@ TEST_CASE("json: settings", "[promise:scenes]") {
     CHECK(scene.top == std::vector<std::string>{"s"});
     REQUIRE(scene.region_colors.size() == 1);
     CHECK(scene.region_colors[0].high == 2);
+}
+
+TEST_CASE("json: what is rendered may be placed as a leg is", "[promise:scenes]") {
+    const std::string head = R"({"csgrt": 1, "units": "cm", "solids": {"s": )" + ball + R"(, "t": )" + ball + "}, ";
+    const Scene scene = scene_of(head + R"("objects": ["s", {"object": "t", "scale": 2, "translate": [1, 2, 3]}]})");
+    CHECK(scene.top == std::vector<std::string>{"s", "t"});
+    REQUIRE(scene.top_matrices.size() == 2);
+    CHECK(scene.top_matrices[0] == identity);
+    CHECK(scene.top_matrices[1] == Matrix{2, 0, 0, 10, 0, 2, 0, 20, 0, 0, 2, 30, 0, 0, 0, 1});
+    CHECK(scene_of(head + R"("objects": ["s", {"object": "t"}]})").top_matrices.empty());
+    for (const auto& [objects, message] : {std::pair{R"([{"object": "u"}])", "there is no object 'u'"},
+                                           std::pair{R"([{"translate": [1, 2, 3]}])", "'object'"},
+                                           std::pair{R"([{"object": "t", "name": "x"}])", "'name'"},
+                                           std::pair{R"([{"object": "t", "scale": 0}])", "a scale must not be 0"}})
+        CHECK(test::says(test::failure(Status::scene, [&] { scene_of(head + "\"objects\": " + objects + "}"); }),
+                         message));
 }
 
 TEST_CASE("json: cylinders and cones stand upright on their base, round") {

@@ -179,6 +179,7 @@ void add_trees(ordered_json& definitions) {
         (add_form<form::Nothing>(definitions, node), ...);
     };
     add(form::leaf, form::union_, form::intersection, form::difference, form::xor_, form::not_);
+    add_form<form::Nothing>(definitions, form::placed);
     add_form<form::Nothing>(definitions, form::postfix);
     add_form<form::Nothing>(definitions, form::postfix_operator);
 }

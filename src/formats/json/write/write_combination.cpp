@@ -8,15 +8,9 @@
 
 namespace csgrt {
 
-namespace {
-
 using nlohmann::ordered_json;
 
-/// The greatest depth of trees that are written as nested operators. Each operator nests two brackets, and the reader
-/// allows Limits::file_nesting brackets. Deeper trees are written in postfix form, which does not nest.
-constexpr std::size_t deepest_nested = 100;
-
-ordered_json json_of_leaf(const TreeNode& leaf, JsonUnit& unit) {
+ordered_json json_of(const TreeNode& leaf, JsonUnit& unit) {
     const Matrix& m = leaf.matrix;
     Matrix moved = identity;
     for (const std::size_t i : {3, 7, 11}) moved[i] = m[i];
@@ -34,6 +28,12 @@ ordered_json json_of_leaf(const TreeNode& leaf, JsonUnit& unit) {
     if (!leaf.name.empty()) out["name"] = leaf.name;
     return out;
 }
+
+namespace {
+
+/// The greatest depth of trees that are written as nested operators. Each operator nests two brackets, and the reader
+/// allows Limits::file_nesting brackets. Deeper trees are written in postfix form, which does not nest.
+constexpr std::size_t deepest_nested = 100;
 
 /// The number of operators above the deepest leaf. Nothing if the nodes are not a tree.
 std::optional<std::size_t> depth_of(const Tree& tree) {
@@ -56,7 +56,7 @@ ordered_json json_of_postfix(const Tree& tree, JsonUnit& unit) {
     ordered_json list = ordered_json::array();
     for (const TreeNode& node : tree.nodes) {
         if (node.op == Operator::leaf) {
-            list.push_back(json_of_leaf(node, unit));
+            list.push_back(json_of(node, unit));
         } else {
             list.push_back({{"operator", operator_name(node.op)}, {"operands", node.arity}});
         }
@@ -68,7 +68,7 @@ ordered_json json_of_nested(const Tree& tree, JsonUnit& unit) {
     std::vector<ordered_json> waiting;
     for (const TreeNode& node : tree.nodes) {
         if (node.op == Operator::leaf) {
-            waiting.push_back(json_of_leaf(node, unit));
+            waiting.push_back(json_of(node, unit));
             continue;
         }
         ordered_json operands = ordered_json::array();

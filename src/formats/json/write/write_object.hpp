@@ -14,6 +14,9 @@ class JsonUnit;
 /// {"type": ...}, with a simple type if this reads back to the same bits.
 nlohmann::ordered_json json_of(const Shape& shape, JsonUnit& unit);
 
+/// The name of a leaf's object, or {"object": ...} with its position.
+nlohmann::ordered_json json_of(const TreeNode& leaf, JsonUnit& unit);
+
 /// {"tree": ...}, with the attributes that differ from their defaults. Sets `fault` if the nodes do not form a tree.
 nlohmann::ordered_json json_of(const Combination& combination, JsonUnit& unit, std::string& fault);
 

@@ -33,7 +33,7 @@ public:
         : scene_(scene), unit_name_(std::move(unit_name)), unit_(unit) {}
 
     std::string text() {
-        const ordered_json settings = json_of_settings();
+        const ordered_json settings = json_of_settings(), top = json_of_top();
         const std::vector<Entry> solids = entries_of<Solid>();
         const std::vector<Entry> combinations = entries_of<Combination>();
         if (!faults_.empty()) throw Error(Status::scene, std::move(faults_));
@@ -43,7 +43,7 @@ public:
         append_section(out, "solids", solids);
         append_section(out, "combinations", combinations);
         if (const ordered_json order = json_of_order(); !order.empty()) append_key(out, "order", order);
-        if (!scene_.top.empty()) append_key(out, "objects", scene_.top);
+        if (!top.empty()) append_key(out, "objects", top);
         return out + "\n}\n";
     }
 
@@ -78,8 +78,20 @@ private:
         for (const Look& look : scene_.looks) looks.push_back(json_of(look, unit_));
         if (!looks.empty()) out["looks"] = std::move(looks);
         check({}, "the scene", out);
-        check({}, "the list of objects", scene_.top);
         return out;
+    }
+
+    ordered_json json_of_top() {
+        ordered_json top = ordered_json::array();
+        for (std::size_t i = 0; i < scene_.top.size(); ++i) {
+            const bool is_placed = i < scene_.top_matrices.size();
+            top.push_back(json_of(
+                TreeNode{.object = scene_.top[i], .matrix = is_placed ? scene_.top_matrices[i] : identity}, unit_));
+        }
+        check({}, "the list of objects", top);
+        if (!scene_.top_matrices.empty() && scene_.top_matrices.size() != scene_.top.size())
+            fault({}, "the list of objects has other places than objects");
+        return top;
     }
 
     ordered_json json_of_camera() {

@@ -1,0 +1,101 @@
+// What is at a path of a Model: regions, places and trees.
+#include <csgrt/model.hpp>
+
+#include <utility>
+
+#include "render/model_impl.hpp"
+#include "scene/object_path.hpp"
+
+namespace csgrt {
+
+namespace {
+
+/// The operator before each leaf of a tree, by the number of its node, as BRL-CAD lists them: the one that joins the
+/// operand that begins with the leaf to the operands before it.
+std::vector<Operator> joints(const std::vector<TreeNode>& nodes) {
+    std::vector<Operator> joining(nodes.size(), Operator::leaf);
+    std::vector<std::size_t> firsts;  // nodes with which the operands begin that wait
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+        if (nodes[i].op == Operator::leaf) {
+            firsts.push_back(i);
+            continue;
+        }
+        if (nodes[i].arity == 0 || nodes[i].arity > firsts.size()) return {};  // a broken tree, which is left out
+        const std::size_t base = firsts.size() - nodes[i].arity,
+                          second = nodes[i].op == Operator::not_ ? base : base + 1;
+        for (std::size_t k = second; k < firsts.size(); ++k)
+            if (joining[firsts[k]] == Operator::leaf) joining[firsts[k]] = nodes[i].op;
+        firsts.resize(base + 1);
+    }
+    for (Operator& op : joining)
+        if (op == Operator::leaf) op = Operator::union_;
+    return joining;
+}
+
+}  // namespace
+
+const Names& PathIndex::names(const Scene& scene) const {
+    std::call_once(has_names_, [&] { names_.emplace(scene); });
+    return *names_;
+}
+
+std::int32_t PathIndex::region(const std::vector<RegionInfo>& regions, const std::string& path) const {
+    std::call_once(has_regions_, [&] {
+        for (std::size_t i = 0; i < regions.size(); ++i)
+            regions_.emplace(regions[i].path, static_cast<std::int32_t>(i));
+    });
+    const auto found = regions_.find(normal_path(path));
+    return found == regions_.end() ? -1 : found->second;
+}
+
+std::int32_t Model::region(const std::string& path) const {
+    const FloatingPoint own;  // hash tables compute, too
+    return impl_->paths.region(regions(), path);
+}
+
+Matrix Model::matrix_of(const std::string& path) const {
+    const FloatingPoint own;
+    const Scene& scene = *impl_->source.scene;
+    const Names& names = impl_->paths.names(scene);
+    const ObjectPath found = follow_path(scene, names, path);
+    return csgrt::matrix_of(names, found, found.steps.size() - 1);
+}
+
+Matrix Model::placement_of(const std::string& path) const {
+    const FloatingPoint own;
+    const Scene& scene = *impl_->source.scene;
+    const Names& names = impl_->paths.names(scene);
+    const ObjectPath found = follow_path(scene, names, path);
+    return csgrt::placement_of(names, found, found.steps.size() - 1);
+}
+
+std::vector<ChildInfo> Model::children(const std::string& path) const {
+    const FloatingPoint own;
+    const Scene& scene = *impl_->source.scene;
+    const Names& names = impl_->paths.names(scene);
+    std::vector<ChildInfo> found;
+    const auto add = [&](std::string way, std::string name, std::uint32_t object, Operator op) {
+        const Object& child = scene.objects[object];
+        found.push_back({std::move(way), std::move(name), name_of(child), type_name(child), op});
+    };
+    if (path == "/") {
+        const std::vector<std::string>& objects = impl_->source.objects;
+        for (const std::string& root : objects.empty() ? names.top_objects() : objects) {
+            const std::string way = normal_path(root);
+            add(way, way.substr(1), follow_path(scene, names, root).object(), Operator::union_);
+        }
+        return found;
+    }
+    const std::uint32_t parent = follow_path(scene, names, path).object();
+    const auto* combination = std::get_if<Combination>(&scene.objects[parent]);
+    if (combination == nullptr) return found;
+    const std::vector<Operator> joining = joints(combination->tree.nodes);
+    for (std::uint32_t node = 0; node < joining.size(); ++node) {
+        const std::uint32_t child = names.child(parent, node);
+        const std::string& name = names.member_name(parent, node);
+        if (child < Names::left_out) add(normal_path(path) + "/" + name, name, child, joining[node]);
+    }
+    return found;
+}
+
+}  // namespace csgrt
