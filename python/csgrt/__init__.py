@@ -17,8 +17,8 @@ from ._page import Page
 from ._scene import Scene, Subtree, load, parse
 from ._solids import Part, box, cone, cylinder, rotate, scale, solid, sphere, torus, translate
 from ._values import (
-    Device, DeviceName, Diagnostic, Error, Hits, Material, Partitions, Pick, Place, Region, Regions, SceneWarning,
-    Solid, Verification, Warning,
+    Child, Device, DeviceName, Diagnostic, Error, Hits, Material, Partitions, Pick, Place, Region, Regions,
+    SceneWarning, Solid, Verification, Warning,
 )
 
 
@@ -28,8 +28,8 @@ def devices() -> list[Device]:
 
 
 __all__ = [
-    "Camera", "Device", "DeviceName", "Diagnostic", "Error", "Hits", "Image", "Material", "Page", "Part", "Partitions",
-    "Pick", "Place", "Region", "Regions", "Scene", "SceneWarning", "Settings", "Solid", "Subtree", "Verification",
-    "View", "Warning", "box", "cone", "cylinder", "devices", "load", "parse", "rays_parallel", "rays_pinhole", "rotate",
-    "scale", "solid", "sphere", "torus", "translate",
+    "Camera", "Child", "Device", "DeviceName", "Diagnostic", "Error", "Hits", "Image", "Material", "Page", "Part",
+    "Partitions", "Pick", "Place", "Region", "Regions", "Scene", "SceneWarning", "Settings", "Solid", "Subtree",
+    "Verification", "View", "Warning", "box", "cone", "cylinder", "devices", "load", "parse", "rays_parallel",
+    "rays_pinhole", "rotate", "scale", "solid", "sphere", "torus", "translate",
 ]

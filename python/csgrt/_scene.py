@@ -14,7 +14,7 @@ from . import _core
 from ._image import Image
 from ._page import Page
 from ._solids import Part, scene_text, shape_text, sphere
-from ._values import Pick, Place, Region, Regions, SceneWarning, Solid, Warning, did_you_mean, unmasked
+from ._values import Child, Pick, Place, Region, Regions, SceneWarning, Solid, Warning, did_you_mean, unmasked
 
 if TYPE_CHECKING:
     from typing import Union
@@ -125,13 +125,27 @@ class Subtree:
         self._scene._set_finish(self.path, _parse(scene_text({"finish": part})))
 
     @property
-    def matrix(self) -> NoReturn:
-        """Set: the (4, 4) matrix of the path's last leg, of this instance alone."""
-        raise AttributeError("matrix can be set, not read")
+    def matrix(self) -> NDArray[np.float64]:
+        """The (4, 4) matrix of the path's last leg, in its parent; the place of a top object. Set: here alone."""
+        return self._scene._matrix_of(self.path)
 
     @matrix.setter
     def matrix(self, matrix: ArrayLike) -> None:
         self._scene._set_matrix(self.path, _matrix(matrix))
+
+    @property
+    def placement(self) -> NDArray[np.float64]:
+        """The (4, 4) matrix from the object's coordinates to the world's: all matrices on the way, the last one too."""
+        return self._scene._placement_of(self.path)
+
+    @property
+    def children(self) -> list[Child]:
+        """The legs of the combination; of a solid none. scene["/"].children: the objects that are rendered."""
+        return [Child(*row) for row in self._scene._child_rows(self.path)]
+
+    def move(self, matrix: ArrayLike, shared: bool = False) -> None:
+        """Moves it in the world: placement becomes matrix @ placement. shared: all instances that share its leg."""
+        self._scene._move(self.path, _matrix(matrix), shared)
 
     def __repr__(self) -> str:
         return f"<csgrt.Subtree {self.path}>"
@@ -277,7 +291,8 @@ class Scene(_core.Scene):
     # ---- Edits, which take effect with commit()
 
     def __getitem__(self, path: str) -> Subtree:
-        """What is at a path such as "/all/turret@2": its matrix, color, finish and state can be set.
+        """What is at a path such as "/all/turret@2": its color, finish, state and matrix, which can be set; move().
+        "/" is all.
 
         commit() looks up paths of colours, finishes and states, and raises csgrt.Error for an unknown one.
         """
@@ -287,13 +302,20 @@ class Scene(_core.Scene):
         """Adds a part under a new name. It is rendered if it is a top object, or joined to one. Raises csgrt.Error."""
         self._add_objects(_parse(scene_text({name: part})), name if top else "")
 
+    def add_top(self, name: str, matrix: ArrayLike = np.eye(4)) -> None:
+        """Renders an object that the scene has, such as one that was removed, at a place. Raises csgrt.Error."""
+        self._add_top(name, _matrix(matrix))
+
     def add_leg(self, combination: str, object: str, operator: Operator = "union",  # noqa: A002
                 matrix: ArrayLike = np.eye(4)) -> None:
         """A combination's tree becomes: tree, operator ("union", "difference", "intersection", "xor"), object."""
         self._join(combination, operator, object, _matrix(matrix))
 
     def replace(self, solid: str, part: Part) -> None:
-        """A solid gets another shape, in all of its places. Raises csgrt.Error, or ValueError for a tree."""
+        """A solid gets another shape, in all of its places; `part` is a single solid, moved or not.
+
+        Raises csgrt.Error, or ValueError for another part.
+        """
         self._replace_shape(solid, _parse(shape_text(part)))
 
     def commit(self) -> None:
@@ -302,6 +324,16 @@ class Scene(_core.Scene):
         Paths of colours, finishes and states are looked up here, those of other edits at once.
         """
         self._commit_edits()
+        self._regions = None
+
+    def undo(self) -> None:
+        """Takes the last commit back; the last 100 are kept. Raises csgrt.Error if there is none, or edits wait."""
+        self._step(True)
+        self._regions = None
+
+    def redo(self) -> None:
+        """Makes the commit again that undo() took back. Raises csgrt.Error if there is none, or edits wait."""
+        self._step(False)
         self._regions = None
 
     def save(self, path: Name) -> None:

@@ -229,7 +229,7 @@ def scene_text(parts: Mapping[str, Part]) -> str:
 
 
 def shape_text(part: Part) -> str:
-    """The JSON of a single solid."""
-    if _part(part)._kind != "solid" or not (part._matrix == np.eye(4)).all():
-        raise ValueError("a solid is replaced by a single solid that is not moved; add() takes any part")
+    """The JSON of a single solid, as the only leaf of a region."""
+    if _part(part)._kind != "solid":
+        raise ValueError("a solid is replaced by a single solid; add() takes any part")
     return scene_text({"part": part})

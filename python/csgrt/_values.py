@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, SupportsIndex, TypedDict, Typ
 
 import numpy as np
 
-from ._core import device_members, region_members, solid_members
+from ._core import child_members, device_members, region_members, solid_members
 
 
 class DeviceName(str):
@@ -22,7 +22,7 @@ if TYPE_CHECKING:  # numpy.typing takes as long to load as csgrt
 
     from numpy.typing import NDArray
 
-    from ._core import Fastgen, State, Status
+    from ._core import Fastgen, Operator, State, Status
 
     DeviceChoice = Union[int, Literal["", "cpu", "gpu", "gpus"], DeviceName]
     ThreeNumbers = Union[Sequence[float], NDArray[np.floating[Any]], NDArray[np.integer[Any]]]
@@ -156,6 +156,19 @@ class Solid(NamedTuple):
 
 
 _describe(Solid, **solid_members)
+
+
+class Child(NamedTuple):
+    """A leg of a combination, or an object that is rendered."""
+
+    path: str
+    name: str
+    object: str
+    type: str
+    op: Operator | Literal["not"]
+
+
+_describe(Child, **child_members)
 
 
 class Regions(Sequence[Region]):

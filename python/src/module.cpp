@@ -49,6 +49,7 @@ NB_MODULE(_core, module) {
     module.attr("version") = version();
     module.attr("region_members") = sentences<RegionInfo>();
     module.attr("solid_members") = sentences<SolidInfo>();
+    module.attr("child_members") = sentences<ChildInfo>();
     module.attr("device_members") = sentences<DeviceInfo>();
     nb::dict channels;
     for (const auto& [name, bits] : channel_names) channels[std::string(name).c_str()] = bits;

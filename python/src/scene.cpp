@@ -115,12 +115,43 @@ public:
         require_own_process();
         nb::gil_scoped_release unlocked;
         const std::lock_guard lock(editing_);
-        if (!edit_) edit_.emplace(renderer_->model());
-        call(*edit_);
+        const bool is_first = !edit_;
+        if (is_first) edit_.emplace(renderer_->model());
+        try {
+            call(*edit_);
+        } catch (...) {
+            if (is_first) edit_.reset();  // nothing waits
+            throw;
+        }
     }
-    // In an edit:
-    void forget_edits() { edit_.reset(); }
-    void use(Model model) { renderer_->set_model(std::move(model)); }
+    void commit() {
+        require_own_process();
+        nb::gil_scoped_release unlocked;
+        const std::lock_guard lock(editing_);
+        if (!edit_) return;
+        Model next = edit_->commit();
+        edit_.reset();
+        undone_.clear();
+        done_.push_back(renderer_->model());
+        if (done_.size() > most_done) done_.erase(done_.begin());
+        renderer_->set_model(std::move(next));
+    }
+    void discard() {
+        const std::lock_guard lock(editing_);
+        edit_.reset();
+    }
+    /// Goes one commit back, or forward again.
+    void step(bool back) {
+        require_own_process();
+        nb::gil_scoped_release unlocked;
+        const std::lock_guard lock(editing_);
+        if (edit_) throw usage("edits wait: commit() or discard() them first");
+        std::vector<Model>&from = back ? done_ : undone_, &to = back ? undone_ : done_;
+        if (from.empty()) throw usage(back ? "there is no commit to undo" : "there is no commit to redo");
+        to.push_back(renderer_->model());
+        renderer_->set_model(std::move(from.back()));
+        from.pop_back();
+    }
 
     Verification verify(std::size_t rays, std::uint64_t seed) {
         Verification result;
@@ -144,6 +175,8 @@ private:
     Camera camera_;
     std::optional<Renderer> renderer_;
     std::optional<Edit> edit_;
+    static constexpr std::size_t most_done = 100;
+    std::vector<Model> done_, undone_;  ///< before and behind the scene's Model, the nearest last
     std::mutex computing_, editing_;
     std::shared_ptr<AnswerPool> answer_pool_ = std::make_shared<AnswerPool>();
     std::atomic<std::thread::id> computes_ = {};  ///< the thread that holds `computing_`
@@ -164,6 +197,19 @@ Rows solid_rows(const LiveScene& scene) {
     const Model model = scene.model();
     for (const SolidInfo& s : model.solids()) rows.append(row_of(s));
     return rows;
+}
+
+Rows child_rows(const LiveScene& scene, const std::string& path) {
+    Rows rows;
+    for (const ChildInfo& child : scene.model().children(path)) rows.append(row_of(child));
+    return rows;
+}
+
+/// A (4, 4) array.
+Numpy<double> array_of(const Matrix& matrix) {
+    auto held = std::make_unique<Matrix>(matrix);
+    double* const data = held->data();
+    return array(data, {4, 4}, keeper(held));
 }
 
 Rows warning_rows(LiveScene& scene) {
@@ -333,6 +379,11 @@ void bind_scene(nb::module_& module) {
         .def(nb::init<Scene&, std::vector<std::string>, const Settings&>(), "source"_a, "objects"_a, "settings"_a)
         .def("_region_rows", &region_rows)
         .def("_solid_rows", &solid_rows)
+        .def("_child_rows", &child_rows)
+        .def("_matrix_of",
+             [](const LiveScene& scene, const std::string& path) { return array_of(scene.model().matrix_of(path)); })
+        .def("_placement_of",
+             [](const LiveScene& scene, const std::string& path) { return array_of(scene.model().placement_of(path)); })
         .def("_warning_rows", &warning_rows)
         .def_prop_ro("_box", [](const LiveScene& scene) { return scene.model().bounds(); })
         .def_prop_ro(
@@ -382,9 +433,15 @@ void bind_scene(nb::module_& module) {
              [](LiveScene& scene, const std::string& path, const Matrices& matrix) {
                  scene.edit([&](Edit& e) { e.set_matrix(path, matrix_of(matrix)); });
              })
+        .def("_move",
+             [](LiveScene& scene, const std::string& path, const Matrices& matrix, bool shared) {
+                 scene.edit(
+                     [&](Edit& e) { e.move(path, matrix_of(matrix), shared ? Edit::Share::all : Edit::Share::alone); });
+             })
         .def("_replace_shape",
              [](LiveScene& scene, const std::string& solid, const Scene& source) {
-                 scene.edit([&](Edit& e) { e.replace(solid, first<Solid>(source).shape); });
+                 const Tree& placed = first<Combination>(source).tree;  // of a single leaf
+                 scene.edit([&](Edit& e) { e.replace(solid, first<Solid>(source).shape, placed.nodes.at(0).matrix); });
              })
         .def("_add_objects",
              [](LiveScene& scene, const Scene& source, const std::string& top) {
@@ -404,16 +461,18 @@ void bind_scene(nb::module_& module) {
         .def(
             "remove", [](LiveScene& scene, const std::string& path) { scene.edit([&](Edit& e) { e.remove(path); }); },
             "path"_a, "Removes the last leg of a path, for all that share the combination. Takes effect with commit().")
-        .def("_commit_edits",
-             [](LiveScene& scene) {
-                 scene.edit([&](Edit& e) {
-                     scene.use(e.commit());
-                     scene.forget_edits();
-                 });
-             })
         .def(
-            "discard", [](LiveScene& scene) { scene.edit([&](Edit&) { scene.forget_edits(); }); },
-            "Forgets the edits since the last commit().")
+            "erase", [](LiveScene& scene, const std::string& path) { scene.edit([&](Edit& e) { e.erase(path); }); },
+            "path"_a,
+            "Removes it, and deletes its object and what nothing else uses below it, so that the names are free."
+            "\nTakes effect with commit(). Raises csgrt.Error if the object has other uses.")
+        .def("_add_top",
+             [](LiveScene& scene, const std::string& object, const Matrices& matrix) {
+                 scene.edit([&](Edit& e) { e.add_top(object, matrix_of(matrix)); });
+             })
+        .def("_commit_edits", &LiveScene::commit)
+        .def("_step", &LiveScene::step)
+        .def("discard", &LiveScene::discard, "Forgets the edits since the last commit().")
         .def("_save_json", [](const LiveScene& scene, const std::string& path) {
             const Model model = scene.model();
             nb::gil_scoped_release unlocked;

@@ -135,6 +135,77 @@ def test_edits_take_effect_with_commit(operators):
         operators.save("edited.g")
 
 
+def test_a_path_tells_where_it_is_and_what_is_below_it(operators):
+    path = "/operators/plinth@2"
+    place = operators[path].matrix
+    np.testing.assert_array_equal(operators[path].placement, place)
+    assert [child.path for child in operators["/"].children] == ["/operators"]
+    below = operators["operators"].children
+    assert path in [child.path for child in below] and {child.op for child in below} == {"union"}
+    assert operators["/operators/difference"].children[1].op == "difference"
+    assert operators.regions[path].path == below[[child.path for child in below].index(path)].path
+    with pytest.raises(csgrt.Error, match="no member 'nothing'"):
+        operators["/operators/nothing"].matrix  # noqa: B018
+    operators[path].move(csgrt.rotate(z=90))
+    operators["/"].move(csgrt.translate(z=5))
+    operators["/"].state = "hidden"
+    operators[path].state = "shown"
+    operators.commit()
+    np.testing.assert_array_equal(operators[path].matrix, csgrt.rotate(z=90) @ place)
+    np.testing.assert_array_equal(operators[path].placement, csgrt.translate(z=5) @ csgrt.rotate(z=90) @ place)
+    np.testing.assert_array_equal(operators["operators"].matrix, csgrt.translate(z=5))
+    assert [region.path for region in operators.regions if region.state == "shown"] == [path]
+
+
+def test_commits_are_undone_and_done_again(operators):
+    pictures = [operators.render(32, 32).color]
+    operators.add("lamp", csgrt.sphere(900))
+    operators.commit()
+    pictures.append(operators.render(32, 32).color)
+    for z in range(3):
+        operators["lamp"].move(csgrt.translate(0, -2000, 1000 * z))
+        operators.commit()
+        pictures.append(operators.render(32, 32).color)
+    operators.commit()  # nothing waits: no commit
+    for picture in pictures[-2::-1]:
+        operators.undo()
+        assert (operators.render(32, 32).color == picture).all()
+    assert "/lamp" not in [region.path for region in operators.regions]
+    with pytest.raises(csgrt.Error, match="no commit to undo"):
+        operators.undo()
+    for picture in pictures[1:]:
+        operators.redo()
+        assert (operators.render(32, 32).color == picture).all()
+    operators.undo()
+    operators["lamp"].color = (1, 0, 0)
+    with pytest.raises(csgrt.Error, match="edits wait"):
+        operators.undo()
+    operators.commit()
+    with pytest.raises(csgrt.Error, match="no commit to redo"):
+        operators.redo()
+    with pytest.raises(csgrt.Error, match="components from 0 to 1"):
+        operators["lamp"].color = (2, 0, 0)
+    operators.undo()  # nothing waits
+
+
+def test_what_was_removed_comes_back_and_what_is_erased_is_gone(operators):
+    lamp = csgrt.sphere(100) - csgrt.box(20)
+    operators.add("lamp", lamp)
+    operators.commit()
+    operators.remove("lamp")
+    operators.commit()
+    with pytest.raises(csgrt.Error, match="already(.|\n)*erase"):
+        operators.add("lamp", lamp)
+    operators.add_top("lamp", csgrt.translate(z=50))
+    operators.commit()
+    assert operators.regions["/lamp"].bounds[1][2] == 150
+    operators.erase("lamp")
+    operators.add("lamp", csgrt.sphere(7).translate(z=1))
+    operators.replace("lamp.sphere1", csgrt.sphere(3).translate(z=2))
+    operators.commit()
+    assert operators.regions["/lamp"].bounds[1][2] == 6
+
+
 def test_booleans_in_code():
     ball, cube = csgrt.sphere(10), csgrt.box(12, center=True)
     points = [[0, 0, 0], [0, 0, 8], [5.5, 5.5, 5.5], [20, 0, 0], [9.5, 0, 0]]

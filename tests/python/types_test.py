@@ -39,6 +39,11 @@ assert_type(scene["/a"].state, Literal["shown", "ghost", "hidden"])
 scene["/a"].color = np.array([0, 1, 0])
 scene["/a"].finish = {"specular": 0.5}
 scene["/a"].matrix = csgrt.rotate(z=15)
+scene["/a"].move(csgrt.rotate(z=15), shared=True)
+assert_type(scene["/a"].matrix, NDArray[np.float64])
+assert_type(scene["/a"].children, list[csgrt.Child])
+assert_type(scene["/a"].children[0].op, Literal["union", "intersection", "difference", "xor", "not"])
+scene.add_top("a", np.eye(4))
 """
 
 WRONG = """
