@@ -173,10 +173,11 @@ void remove_top(Scene& scene, const std::string& object) {
         scene.top_matrices.erase(scene.top_matrices.begin() + static_cast<std::ptrdiff_t>(number));
 }
 
-void place_object(Scene& scene, const std::vector<std::string>& rendered, const std::string& path, const Matrix& matrix,
-                  bool alone) {
-    const Names names(scene);
-    std::vector<ObjectPath::Step> steps = follow_path(scene, names, path).steps;
+namespace {
+
+/// Gives the last member of a path, or its top object, another matrix. Changes the steps.
+void place(Scene& scene, const Names& names, const std::vector<std::string>& rendered, const std::string& path,
+           std::vector<ObjectPath::Step>& steps, const Matrix& matrix, bool alone) {
     if (steps.size() == 1) {
         if (position(rendered, path) == rendered.size())
             refuse("'" + path + "' is neither rendered by this name nor a leg of a combination", lead_to_it);
@@ -186,17 +187,26 @@ void place_object(Scene& scene, const std::vector<std::string>& rendered, const 
     tree_of(scene, steps[steps.size() - 2].object).nodes[steps.back().node].matrix = matrix;
 }
 
+}  // namespace
+
+void place_object(Scene& scene, const std::vector<std::string>& rendered, const std::string& path, const Matrix& matrix,
+                  bool alone) {
+    const Names names(scene);
+    ObjectPath found = follow_path(scene, names, path);
+    place(scene, names, rendered, path, found.steps, matrix, alone);
+}
+
 void move_object(Scene& scene, const std::vector<std::string>& rendered, const std::string& path, const Matrix& matrix,
                  bool alone) {
     const Names names(scene);
-    const ObjectPath found = follow_path(scene, names, path);
+    ObjectPath found = follow_path(scene, names, path);
     const std::size_t last = found.steps.size() - 1;
     std::optional<Matrix> own = compose(matrix, placement_of(names, found, last));
     if (last > 0) own = divide(placement_of(names, found, last - 1), *own);
     if (!own)
         refuse("a matrix above '" + path + "' cannot be inverted, so that nothing below it can be moved",
                "give that part another matrix first (set_matrix)");
-    place_object(scene, rendered, path, *own, alone);
+    place(scene, names, rendered, path, found.steps, *own, alone);
 }
 
 void remove_member(Scene& scene, const std::string& path) {
