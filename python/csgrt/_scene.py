@@ -171,6 +171,7 @@ class Scene(_core.Scene):
         if not isinstance(scene, _core.Source):
             scene = _parse(scene_text(scene))
         super().__init__(scene, [objects] if isinstance(objects, str) else list(objects), _settings(settings))
+        self._given = settings
         self._regions: Regions | None = None
         found = self.warnings
         if found:
@@ -336,6 +337,27 @@ class Scene(_core.Scene):
         self._step(False)
         self._regions = None
 
+    def copy(self) -> Scene:
+        """Another Scene of the same model, with edits of its own. Edits that wait and commits to undo stay here."""
+        made = Scene.__new__(Scene)
+        _core.Scene.__init__(made, self)
+        made._given, made._regions = self._given, None
+        return made
+
+    __copy__ = copy
+
+    def __deepcopy__(self, _: object) -> Scene:
+        return self.copy()
+
+    def __reduce__(self) -> tuple[Any, ...]:  # from a process to another, as JSON
+        import tempfile
+
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "scene.json")
+            self.save(path)
+            with open(path, "rb") as file:
+                return _unpickled, (file.read(), self._rendered(), self._given)
+
     def save(self, path: Name) -> None:
         """Writes the scene with all committed edits as .json. Raises csgrt.Error, or ValueError for another format."""
         path = os.fspath(path)
@@ -352,6 +374,10 @@ class Scene(_core.Scene):
 
     def __repr__(self) -> str:
         return f"<csgrt.Scene: {len(self.regions)} regions>"
+
+
+def _unpickled(text: bytes, objects: list[str], settings: _core.SettingsKeywords) -> Scene:
+    return parse(text, objects, **settings)
 
 
 def _inside(level: int) -> bool:

@@ -67,11 +67,30 @@ public:
         nb::gil_scoped_release unlocked;
         renderer_.emplace(std::move(source), objects_, settings_);
     }
+    /// Draws the same model, which both share. What waits and what can be undone stays with the other.
+    explicit LiveScene(const LiveScene& other)
+        : settings_(other.settings_),
+          objects_(other.objects_),
+          units_(other.units_),
+          title_(other.title_),
+          camera_(other.camera_) {
+        const Model model = other.model();
+        nb::gil_scoped_release unlocked;
+        renderer_.emplace(model, settings_);
+    }
 
     const std::string& units() const { return units_; }
     const std::string& title() const { return title_; }
     const Camera& camera() const { return camera_; }
     const std::shared_ptr<AnswerPool>& answer_pool() const { return answer_pool_; }
+
+    /// The paths of what is rendered, if the caller has named some objects.
+    std::vector<std::string> rendered() const {
+        std::vector<std::string> paths;
+        if (!objects_.empty())
+            for (const ChildInfo& child : model().children()) paths.push_back(child.path);
+        return paths;
+    }
 
     /// A Model is shared and never changes.
     Model model() const {
@@ -156,7 +175,7 @@ public:
     Verification verify(std::size_t rays, std::uint64_t seed) {
         Verification result;
         run([&](Renderer& renderer) {
-            Verifier verifier(renderer.model().scene(), objects_, settings_);
+            Verifier verifier(renderer.model().scene(), rendered(), settings_);
             verifier.shoot(verifier.sample(camera_, rays, seed));
             result = verifier.result();
         });
@@ -377,6 +396,8 @@ void bind_scene(nb::module_& module) {
     module.attr("Operator") = literal(joining);
     nb::class_<LiveScene>(module, "Scene", "What csgrt.Scene is made of.")
         .def(nb::init<Scene&, std::vector<std::string>, const Settings&>(), "source"_a, "objects"_a, "settings"_a)
+        .def(nb::init<const LiveScene&>(), "other"_a)
+        .def("_rendered", &LiveScene::rendered)
         .def("_region_rows", &region_rows)
         .def("_solid_rows", &solid_rows)
         .def("_child_rows", &child_rows)

@@ -1,5 +1,6 @@
 """Pictures, edits, errors, warnings; scenes made in code."""
 
+import copy
 import io
 import json
 import pickle
@@ -204,6 +205,29 @@ def test_what_was_removed_comes_back_and_what_is_erased_is_gone(operators):
     operators.replace("lamp.sphere1", csgrt.sphere(3).translate(z=2))
     operators.commit()
     assert operators.regions["/lamp"].bounds[1][2] == 6
+
+
+def test_scenes_are_copied_and_go_from_process_to_process(scenes):
+    scene = csgrt.load(scenes / "operators.json", ["/operators/union", "/operators/plinth@2"], max_memory=2**30)
+    scene.add("lamp", csgrt.sphere(3000))
+    scene["/operators/union"].color = (0, 1, 0)
+    scene.remove("/operators/plinth@2")
+    scene.commit()
+    scene["lamp"].color = (1, 0, 0)  # waits
+    picture = scene.render(32, 32)
+    for other in (scene.copy(), copy.copy(scene), copy.deepcopy(scene), pickle.loads(pickle.dumps(scene))):
+        assert [region.path for region in other.regions] == ["/operators/union", "/lamp"]
+        assert (other.render(32, 32).rgba == picture.rgba).all()
+        with pytest.raises(csgrt.Error, match="no commit to undo"):
+            other.undo()
+        other["lamp"].state = "hidden"
+        other.commit()
+        assert (other.render(32, 32).region_ids != picture.region_ids).any()
+    assert (scene.render(32, 32).rgba == picture.rgba).all()
+    two = csgrt.Scene({"a": csgrt.sphere(1), "b": csgrt.sphere(2)}, ["a", "b"])
+    two.erase("a")
+    two.commit()
+    assert two.verify(100)["passed"]
 
 
 def test_booleans_in_code():
