@@ -1,7 +1,11 @@
 // Model: a compiled scene, which Renderers draw, and which can trace single rays itself.
 #pragma once
 
+#include <algorithm>
+#include <compare>
+#include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <memory>
 #include <span>
 #include <string>
@@ -14,6 +18,77 @@
 #include <csgrt/view.hpp>
 
 namespace csgrt {
+
+/// A list in chunks, which its copies share until one of them changes an element. So a Model shares with the Model that
+/// it was edited from what the edit left alone. Elements stay in place as long as a copy of the list does.
+template <class T>
+class SharedList {
+public:
+    using value_type = T;
+    static constexpr std::size_t chunk_size = 256;  ///< elements
+
+    class const_iterator {
+    public:
+        using value_type = T;
+        using difference_type = std::ptrdiff_t;
+        using iterator_category = std::random_access_iterator_tag;
+        using pointer = const T*;
+        using reference = const T&;
+
+        const_iterator() = default;
+        const_iterator(const SharedList& list, difference_type at) : list_(&list), at_(at) {}
+        reference operator*() const { return (*list_)[static_cast<std::size_t>(at_)]; }
+        pointer operator->() const { return &**this; }
+        reference operator[](difference_type n) const { return *(*this + n); }
+        const_iterator& operator+=(difference_type n) { return at_ += n, *this; }
+        const_iterator& operator-=(difference_type n) { return at_ -= n, *this; }
+        const_iterator& operator++() { return *this += 1; }
+        const_iterator& operator--() { return *this -= 1; }
+        const_iterator operator++(int) { return {*list_, at_++}; }
+        const_iterator operator--(int) { return {*list_, at_--}; }
+        friend const_iterator operator+(const_iterator a, difference_type n) { return a += n; }
+        friend const_iterator operator+(difference_type n, const_iterator a) { return a += n; }
+        friend const_iterator operator-(const_iterator a, difference_type n) { return a -= n; }
+        friend difference_type operator-(const_iterator a, const_iterator b) { return a.at_ - b.at_; }
+        friend bool operator==(const_iterator a, const_iterator b) { return a.at_ == b.at_; }
+        friend auto operator<=>(const_iterator a, const_iterator b) { return a.at_ <=> b.at_; }
+
+    private:
+        const SharedList* list_ = nullptr;
+        difference_type at_ = 0;
+    };
+    using iterator = const_iterator;
+
+    SharedList() = default;
+    explicit SharedList(std::size_t size) : chunks_((size + chunk_size - 1) / chunk_size), size_(size) {}
+
+    std::size_t size() const noexcept { return size_; }
+    bool empty() const noexcept { return size_ == 0; }
+    const T& operator[](std::size_t i) const noexcept { return (*chunks_[i / chunk_size])[i % chunk_size]; }
+    const T& front() const noexcept { return (*this)[0]; }
+    const T& back() const noexcept { return (*this)[size_ - 1]; }
+    const_iterator begin() const noexcept { return {*this, 0}; }
+    const_iterator end() const noexcept { return {*this, static_cast<std::ptrdiff_t>(size_)}; }
+    operator std::vector<T>() const { return {begin(), end()}; }
+
+    /// An element for changing: no copy shares its chunk any more. Several threads may change different chunks.
+    T& own(std::size_t i) {
+        Chunk& chunk = chunks_[i / chunk_size];
+        if (!chunk)
+            chunk = std::make_shared<std::vector<T>>(std::min(chunk_size, size_ - i / chunk_size * chunk_size));
+        else if (chunk.use_count() > 1)
+            chunk = std::make_shared<std::vector<T>>(*chunk);
+        return (*chunk)[i % chunk_size];
+    }
+    std::size_t chunk_count() const noexcept { return chunks_.size(); }
+    /// The elements of a chunk, whose address tells whether lists share it.
+    std::span<const T> chunk(std::size_t number) const noexcept { return *chunks_[number]; }
+
+private:
+    using Chunk = std::shared_ptr<std::vector<T>>;
+    std::vector<Chunk> chunks_;  ///< null: not made yet
+    std::size_t size_ = 0;
+};
 
 /// One region of the compiled model.
 struct RegionInfo {
@@ -63,11 +138,11 @@ public:
     /// The box around the boxes of all regions, in millimetres; low > high if no region is bounded.
     const Box& bounds() const;
     /// The regions. Partitions::region_ids are indices into this list.
-    const std::vector<RegionInfo>& regions() const;
+    const SharedList<RegionInfo>& regions() const;
     /// The index of the region that has a path; -1: none has.
     std::int32_t region(const std::string& path) const;
     /// The solids. Partitions::in_solids are indices into this list.
-    const std::vector<SolidInfo>& solids() const;
+    const SharedList<SolidInfo>& solids() const;
     /// Faults that the scene's reader tolerated, objects that were left out, and other notes, each once per object and
     /// reason. The attribute csgrt:warnings of pictures has the first warnings.
     const std::vector<Warning>& warnings() const;

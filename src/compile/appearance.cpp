@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <numbers>
 
 #include "base/display_bytes.hpp"
 #include "base/parallel.hpp"
+#include "compile/hash.hpp"
 #include "compile/linear.hpp"
 #include "scene/vector.hpp"
 
@@ -63,9 +66,16 @@ kernel::MaterialRecord material_of(const RegionInfo& info, double brightness, co
     return m;
 }
 
-/// Adds the lights of the regions that emit light, by BRL-CAD's rules. Returns the brightness of each region.
-std::vector<double> add_region_lights(std::span<const RegionInfo> regions, std::span<const RegionLight> shining,
-                                      Appearance& appearance, std::vector<Warning>& warnings) {
+void set_material(Appearance& appearance, std::size_t region, const kernel::MaterialRecord& material) {
+    const kernel::MaterialRecord& before = appearance.materials[region];
+    if (std::memcmp(&material, &before, sizeof material) == 0) return;
+    appearance.materials_hash += hash_of_material(region, material) - hash_of_material(region, before);
+    appearance.materials.own(region) = material;
+}
+
+/// Adds the lights of the regions that emit light, by BRL-CAD's rules, and sets the materials of these regions.
+void add_region_lights(const SharedList<RegionInfo>& regions, std::span<const RegionLight> shining,
+                       Appearance& appearance, std::vector<Warning>& warnings) {
     double brightest = 0;
     for (const RegionLight& of : shining) {
         const Emission& light = *regions[of.region].finish.light;
@@ -73,11 +83,11 @@ std::vector<double> add_region_lights(std::span<const RegionInfo> regions, std::
     }
     // The scale is BRL-CAD's: the brightest light and half of the ambient light together make white.
     const double full = brightest * (1 + 0.5 * appearance.ambient);
-    std::vector<double> brightness(regions.size());
     for (const RegionLight& of : shining) {
         const RegionInfo& region = regions[of.region];
         const Emission& light = *region.finish.light;
-        const double bright = brightness[of.region] = light.fraction > 0 ? light.fraction : intensity_of(light) / full;
+        const double bright = light.fraction > 0 ? light.fraction : intensity_of(light) / full;
+        set_material(appearance, of.region, material_of(region, bright, appearance));
         if (is_empty(region.bounds) || !is_finite(region.bounds)) {
             Warning& warning = warnings.emplace_back();
             warning.object = region.path;
@@ -98,7 +108,6 @@ std::vector<double> add_region_lights(std::span<const RegionInfo> regions, std::
         found.direction = narrow(transform_direction(of.matrix, wide(axis)));
         appearance.lights.push_back(light_record(found));
     }
-    return brightness;
 }
 
 SharedVector<kernel::DisplayBytes> display_bytes(bool are_display_values) {
@@ -111,10 +120,8 @@ SharedVector<kernel::DisplayBytes> display_bytes(bool are_display_values) {
     return {table};
 }
 
-}  // namespace
-
-Appearance appearance_of(const SceneAppearance& scene, std::span<const RegionInfo> regions,
-                         std::span<const RegionLight> shining, bool display_shading, std::vector<Warning>& warnings) {
+/// The appearance without materials and regions' lights.
+Appearance common_appearance(const SceneAppearance& scene, bool display_shading) {
     Appearance appearance;
     appearance.display_shading = display_shading;
     // The tables are never destroyed: a thread may compile while the process ends.
@@ -128,13 +135,39 @@ Appearance appearance_of(const SceneAppearance& scene, std::span<const RegionInf
         light.color = appearance.shaded(light.color);
         appearance.lights.push_back(light_record(light));
     }
-    const std::vector<double> brightness = add_region_lights(regions, shining, appearance, warnings);
-    std::vector<kernel::MaterialRecord>& materials = appearance.materials.own();
-    materials.resize(regions.size());
+    return appearance;
+}
+
+}  // namespace
+
+Appearance appearance_of(const SceneAppearance& scene, const SharedList<RegionInfo>& regions,
+                         std::span<const RegionLight> shining, bool display_shading, std::vector<Warning>& warnings) {
+    Appearance appearance = common_appearance(scene, display_shading);
+    SharedList<kernel::MaterialRecord>& materials = appearance.materials =
+        SharedList<kernel::MaterialRecord>(regions.size());
     constexpr std::size_t many = 4096;
+    static_assert(many % materials.chunk_size == 0);  // threads make different chunks of the list
+    std::atomic<std::uint64_t> hash = 0;
     for_chunks(regions.size(), many, 0, [&](std::size_t first, std::size_t last, std::size_t) {
-        for (std::size_t i = first; i < last; ++i) materials[i] = material_of(regions[i], brightness[i], appearance);
+        std::uint64_t own = 0;
+        for (std::size_t i = first; i < last; ++i)
+            own += hash_of_material(i, materials.own(i) = material_of(regions[i], 0, appearance));
+        hash += own;
     });
+    appearance.materials_hash = hash;
+    add_region_lights(regions, shining, appearance, warnings);
+    return appearance;
+}
+
+Appearance appearance_of(const SceneAppearance& scene, const SharedList<RegionInfo>& regions,
+                         std::span<const RegionLight> shining, const Appearance& before,
+                         std::span<const std::uint32_t> changed) {
+    Appearance appearance = common_appearance(scene, before.display_shading);
+    appearance.materials = before.materials;
+    appearance.materials_hash = before.materials_hash;
+    for (const std::uint32_t i : changed) set_material(appearance, i, material_of(regions[i], 0, appearance));
+    std::vector<Warning> known;
+    add_region_lights(regions, shining, appearance, known);
     return appearance;
 }
 

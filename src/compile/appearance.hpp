@@ -24,7 +24,13 @@ struct SceneAppearance {
 
 /// The appearance of the scene and its regions. `shining` lists the regions that emit light, by BRL-CAD's rules. A
 /// region of `shining` without a finite box gives no light, and a warning says so.
-Appearance appearance_of(const SceneAppearance& scene, std::span<const RegionInfo> regions,
+Appearance appearance_of(const SceneAppearance& scene, const SharedList<RegionInfo>& regions,
                          std::span<const RegionLight> shining, bool display_shading, std::vector<Warning>& warnings);
+
+/// The same when only the scene's appearance and the `changed` regions differ from those of `before`. Warnings of
+/// lights were given then.
+Appearance appearance_of(const SceneAppearance& scene, const SharedList<RegionInfo>& regions,
+                         std::span<const RegionLight> shining, const Appearance& before,
+                         std::span<const std::uint32_t> changed);
 
 }  // namespace csgrt

@@ -123,7 +123,7 @@ CompiledScene compile(const Scene& scene, const std::vector<std::string>& object
     auto [space, order] = space_of(measured->boxes, clipped.ray_boxes.empty() ? measured->boxes : clipped.ray_boxes);
     auto [logic, terms] = pack_regions(flat, clipped.trees, order, measured->brlcad_boxes);
     space.starting_node = starting_node(space.nodes, terms);
-    Appearance appearance = appearance_of({scene.lights, scene.ambient, scene.background}, logic.region_info.get(),
+    Appearance appearance = appearance_of({scene.lights, scene.ambient, scene.background}, logic.region_info,
                                           logic.region_lights, options.display_shading, warnings);
     Shapes shapes =
         pack_solids(scene, flat, *measured, clipped, order, space, common_box(scene, flat, space), terms, warnings);

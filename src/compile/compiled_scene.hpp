@@ -50,6 +50,9 @@ struct Space {
     double radius = 0;
 };
 
+class LatePathTable;   // regions/path_table.hpp
+class LateStatusTree;  // regions/status_tree.hpp
+
 /// The data that decides which regions claim a partition.
 struct Logic {
     SharedVector<std::uint32_t> trees;  ///< words of terms; then the positions of solids in large terms
@@ -59,10 +62,17 @@ struct Logic {
     // The members below stay on the host.
     SharedVector<RegionWords> regions;
     SharedVector<FlatTree> flat_trees;       ///< one a region
-    SharedVector<RegionInfo> region_info;    ///< one a region
+    SharedList<RegionInfo> region_info;      ///< one a region
+    std::shared_ptr<LatePathTable> paths;    ///< of the regions; made for the first edit of their appearance
+    SharedVector<std::uint8_t> states;       ///< State of each region; empty: all are shown
     std::vector<RegionLight> region_lights;  ///< of the regions that shine
     Box bounds;                              ///< of the regions, by BRL-CAD's rules (see tree_box)
     SharedVector<std::uint8_t> claims;       ///< one a region, 0: it claims nothing; empty: all claim (claimed_by)
+
+    void set_state(std::size_t region, State state) {
+        if (states.empty()) states.resize(region_info.size());
+        states[region] = static_cast<std::uint8_t>(state);
+    }
 };
 
 /// The shapes that rays meet.
@@ -73,16 +83,17 @@ struct Shapes {
     SharedVector<std::uint32_t> words;  ///< of solids; then PlaneRefs
     SharedVector<kernel::BvhNode> inner_nodes;
     // The members below stay on the host.
-    SharedVector<SolidInfo> solid_info;  ///< one a solid
-    SharedVector<Box> solid_boxes;       ///< one a solid; infinite for the unbounded
-    std::uint32_t solid_types = 0;       ///< bit SOLID_x: the scene has such solids
-    double tolerance = 0;                ///< see Scene
+    SharedList<SolidInfo> solid_info;  ///< one a solid
+    SharedVector<Box> solid_boxes;     ///< one a solid; infinite for the unbounded
+    std::uint32_t solid_types = 0;     ///< bit SOLID_x: the scene has such solids
+    double tolerance = 0;              ///< see Scene
 };
 
 /// Appearance: the data for shading.
 struct Appearance {
-    SharedVector<kernel::MaterialRecord> materials;  ///< one a region
-    std::vector<kernel::LightRecord> lights;         ///< the scene's lights; empty: the view supplies a light
+    SharedList<kernel::MaterialRecord> materials;  ///< one a region
+    std::uint64_t materials_hash = 0;              ///< the sum of their hashes, so that an edit hashes what it changes
+    std::vector<kernel::LightRecord> lights;       ///< the scene's lights; empty: the view supplies a light
     std::vector<double> background{0, 0, 0};
     double ambient = 0.4;
     SharedVector<kernel::DisplayBytes> display;  ///< one
@@ -94,8 +105,6 @@ struct Appearance {
         return {linear_of_display(color.x), linear_of_display(color.y), linear_of_display(color.z)};
     }
 };
-
-class LateStatusTree;  // regions/status_tree.hpp
 
 /// A scene as the kernels and the reference read it: numbered solids in a hierarchy, regions as words and terms, and
 /// appearance. It never changes; copies share their tables. An edit that changes only colours makes a copy with another

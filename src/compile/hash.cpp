@@ -17,11 +17,18 @@ std::uint64_t hash_of_geometry(const CompiledScene& scene) {
     return hash.state();
 }
 
+std::uint64_t hash_of_material(std::size_t region, const kernel::MaterialRecord& material) {
+    Fnv1a hash;
+    hash.add(static_cast<std::uint64_t>(region));
+    hash.add(material);
+    return hash.state();
+}
+
 std::uint64_t hash_of(const CompiledScene& scene) {
     Fnv1a hash;
     hash.add(scene.geometry_hash);
     hash.add_all(scene.claims.get());
-    hash.add_all(scene.materials.get());
+    hash.add(scene.materials_hash);
     hash.add(static_cast<std::uint64_t>(scene.lights.size()));
     for (const kernel::LightRecord& light : scene.lights) {
         // A record may end in padding, so its members are added one by one.

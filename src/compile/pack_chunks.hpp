@@ -33,6 +33,7 @@ static_assert(sizeof(PackedPlane) == 64);
 /// The packed solids of a chunk, before planes and surfaces that several solids share are found.
 struct PackedChunk {
     static constexpr std::size_t size = 1024;
+    static_assert(size % SharedList<SolidInfo>::chunk_size == 0);  // threads make different chunks of the list
 
     struct Part {
         std::uint32_t first_real, reals;  ///< within the chunk

@@ -65,7 +65,7 @@ public:
     Shapes pack() {
         shapes_.tolerance = scene_.tolerance;
         resize_cleared(shapes_.solids, order_.size());
-        resize_cleared(shapes_.solid_info, order_.size());
+        shapes_.solid_info = SharedList<SolidInfo>(order_.size());
         resize_cleared(shapes_.solid_boxes, order_.size());
         for_each_chunk(chunks_, [this](std::size_t number) {
             const std::size_t first = number * PackedChunk::size;
@@ -105,7 +105,7 @@ private:
         const Solid& solid = std::get<Solid>(scene_.objects[instance.object]);
         const Shape& shape = shape_of(scene_, flat_, instance);
         const Box& own = measured_.boxes[order_[number]];
-        shapes_.solid_info[number] = {solid.name, type_name(solid.shape), instance.piece};
+        shapes_.solid_info.own(number) = {solid.name, type_name(solid.shape), instance.piece};
         shapes_.solid_boxes[number] = own;
         if (!is_finite(own) && !std::holds_alternative<Half>(shape))
             chunk.warnings.push_back({solid.name, solid.place, "its faces do not close: it is not bounded", 1});

@@ -4,14 +4,12 @@
 #include <unordered_map>
 #include <utility>
 
-#include "compile/flatten/appearance_table.hpp"
-#include "compile/hash.hpp"
-#include "compile/appearance.hpp"
+#include "compile/regions/path_table.hpp"
+#include "compile/repaint.hpp"
 #include "render/model_impl.hpp"
 #include "scene/edit_scene.hpp"
 #include "scene/faults/finding_list.hpp"
 #include "scene/faults/objects.hpp"
-#include "scene/nearest.hpp"
 #include "scene/object_path.hpp"
 #include "scene/vector.hpp"
 
@@ -33,7 +31,7 @@ struct Edit::Impl {
     /// The number of a path among them, or -1. Throws if it is all that is rendered.
     std::ptrdiff_t root(const std::string& path);
     void add(Look look);
-    bool changes_tables_alone(const AppearanceTable& table) const;
+    bool changes_tables_alone() const;
     ModelSource next() const;
 };
 
@@ -71,33 +69,6 @@ void check_values(const Scene& values) {
         findings.add({place, message, suggestion, {}});
     });
     if (!findings.empty()) throw Error(Status::scene, findings.take());
-}
-
-/// Throws Error (usage) for an appearance that concerns none of the regions.
-void check_paths(const std::vector<Look>& looks, const AppearanceTable& table, const std::vector<RegionInfo>& regions) {
-    std::vector<bool> used(looks.size());
-    for (const RegionInfo& region : regions)
-        for (const std::uint32_t i : table.find(region.path)) used[i] = true;
-    for (std::size_t i = 0; i < looks.size(); ++i) {
-        const std::string& path = looks[i].path;
-        if (used[i]) continue;
-        std::vector<std::string_view> known;
-        for (const RegionInfo& region : regions) known.push_back(region.path);
-        throw Error(Status::usage, {Diagnostic{.message = "the model has no region at '" + path + "', nor below it",
-                                               .suggestion = did_you_mean(path, known)}});
-    }
-}
-
-/// Returns the scene with the appearances of `source` and `table`, and the same solids and regions.
-CompiledScene repainted(const CompiledScene& before, const ModelSource& source, const AppearanceTable& table) {
-    CompiledScene made = before;
-    for (RegionInfo& region : made.region_info.own()) table.apply(region);
-    std::vector<Warning> known;  // not used: they were reported when the scene was compiled
-    static_cast<Appearance&>(made) =
-        appearance_of({source.lights, source.ambient, source.background}, made.region_info.get(), made.region_lights,
-                      made.display_shading, known);
-    made.hash = hash_of(made);
-    return made;
 }
 
 }  // namespace
@@ -236,13 +207,14 @@ Edit& Edit::erase(const std::string& path) {
 
 /// Whether only tables change. They do not suffice if a region begins or ceases to emit light, since its number may
 /// change.
-bool Edit::Impl::changes_tables_alone(const AppearanceTable& table) const {
+bool Edit::Impl::changes_tables_alone() const {
     if (scene) return false;
-    const auto is_finish = [&](std::uint32_t i) { return looks[i].finish.has_value(); };
-    if (std::ranges::any_of(looks, [](const Look& look) { return look.finish && look.finish->light; })) return false;
-    for (const RegionLight& light : before->scene.region_lights)
-        if (std::ranges::any_of(table.find(before->scene.region_info[light.region].path), is_finish)) return false;
-    return true;
+    return std::ranges::none_of(looks, [&](const Look& look) {
+        return look.finish &&
+               (look.finish->light || std::ranges::any_of(before->scene.region_lights, [&](const RegionLight& light) {
+                    return is_at_or_below(before->scene.region_info[light.region].path, look.path);
+                }));
+    });
 }
 
 ModelSource Edit::Impl::next() const {
@@ -255,23 +227,23 @@ Model Edit::commit() const {
     const FloatingPoint own;
     const Impl& edit = *impl_;
     const AllowedThreads allowed(edit.source.settings.threads);
-    const AppearanceTable table(edit.looks);
     ModelSource source = edit.next();
     Scene values;
     source.put_appearance(values);
     values.looks.clear();  // valid since they were set
     check_values(values);
     std::shared_ptr<const Model::Impl> made;
-    if (edit.changes_tables_alone(table)) {
-        CompiledScene painted = repainted(edit.before->scene, source, table);
+    if (edit.changes_tables_alone()) {
+        CompiledScene painted =
+            repainted(edit.before->scene, edit.looks, {source.lights, source.ambient, source.background});
         made = std::make_shared<Model::Impl>(std::move(source), std::move(painted), *edit.before);
     } else {
         Scene whole = edit.scene ? *edit.scene : *source.scene;
         source.put_appearance(whole);
         source.scene = std::make_shared<const Scene>(std::move(whole));
         made = std::make_shared<Model::Impl>(std::move(source));
+        for (const Look& look : edit.looks) regions_at(made->scene, look.path);
     }
-    check_paths(edit.looks, table, made->scene.region_info);
     return Model(std::move(made));
 }
 

@@ -81,27 +81,33 @@ Model::Impl::Impl(ModelSource of) : source(std::move(of)), compile_ms(0) {
     scene = compiled(source);
     compile_ms = milliseconds_since(start);
     tolerance = tolerance_in_double(scene, source.settings);
-    find_states();
+    all_.emplace(scene, tolerance);
 }
 
 Model::Impl::Impl(ModelSource of, CompiledScene made, const Impl& before)
     : source(std::move(of)), scene(std::move(made)), tolerance(before.tolerance), compile_ms(before.compile_ms) {
-    find_states();
+    all_.emplace(scene, tolerance);
 }
 
-void Model::Impl::find_states() {
-    all_.emplace(scene, tolerance);
-    const std::vector<RegionInfo>& regions = scene.region_info;
-    const auto in_state = [&](State state) {
-        std::vector<std::uint8_t> are(regions.size());
-        std::ranges::transform(regions, are.begin(), [&](const RegionInfo& region) { return region.state == state; });
-        return are;
-    };
-    std::vector<std::uint8_t> shown = in_state(State::shown), ghosts = in_state(State::ghost);
-    if (std::ranges::count(ghosts, 1) > 0) some_ghosts = claimed_by(scene, std::move(ghosts));
-    if (std::ranges::count(shown, 0) == 0) return;
-    some_shown = claimed_by(scene, std::move(shown));
-    shown_.emplace(*some_shown, tolerance);
+bool Model::Impl::has(State state) const {
+    return std::ranges::find(scene.states, static_cast<std::uint8_t>(state)) != scene.states.end();
+}
+
+std::shared_ptr<const CompiledScene> Model::Impl::claimed(State by) const {
+    const std::lock_guard lock(mutex_);
+    std::weak_ptr<const CompiledScene>& known = claimed_[by == State::ghost];
+    std::shared_ptr<const CompiledScene> found = known.lock();
+    if (!found) known = found = std::make_shared<const CompiledScene>(claimed_by(scene, by));
+    return found;
+}
+
+void Model::Impl::trace(const RayList& list, RowReceiver& receiver, ClaimingRegions claims) const {
+    if (claims == ClaimingRegions::all || shows_all()) return all_->trace(list, receiver);
+    std::call_once(has_shown_, [&] {
+        shown_scene_ = claimed(State::shown);
+        shown_.emplace(*shown_scene_, tolerance);
+    });
+    shown_->trace(list, receiver);
 }
 
 Model::Model(Scene scene, const std::vector<std::string>& objects, const Settings& settings) {
@@ -117,8 +123,8 @@ Model::Model(Scene scene, const std::vector<std::string>& objects, const Setting
 }
 
 const Box& Model::bounds() const { return impl_->scene.bounds; }
-const std::vector<RegionInfo>& Model::regions() const { return impl_->scene.region_info; }
-const std::vector<SolidInfo>& Model::solids() const { return impl_->scene.solid_info; }
+const SharedList<RegionInfo>& Model::regions() const { return impl_->scene.region_info; }
+const SharedList<SolidInfo>& Model::solids() const { return impl_->scene.solid_info; }
 const std::vector<Warning>& Model::warnings() const { return impl_->scene.warnings; }
 double Model::tolerance() const { return impl_->tolerance; }
 
@@ -182,7 +188,7 @@ Pick Model::pick(const View& view, int column, int row) const {
         };
         pick.along = along(ClaimingRegions::all);
         if (range.in_plane) list.cut_by({frame.clip, frame.clip_count});
-        const RayPartitions shown = impl_->some_shown || range.in_plane ? along(ClaimingRegions::shown) : pick.along;
+        const RayPartitions shown = !impl_->shows_all() || range.in_plane ? along(ClaimingRegions::shown) : pick.along;
         for (const Partition& p : shown.partitions) {
             if (p.region >= seen_end || !(p.out > range.after)) continue;
             if (!(p.in < range.before && range.after < range.before)) break;

@@ -6,8 +6,6 @@
 #include <mutex>
 #include <optional>
 #include <string>
-#include <string_view>
-#include <unordered_map>
 #include <vector>
 
 #include <csgrt/model.hpp>
@@ -62,45 +60,32 @@ struct ModelSource {
     }
 };
 
-/// What is at a path, for one scene and its regions. Any thread.
-class PathIndex {
-public:
-    const Names& names(const Scene& scene) const;
-    /// The index of a region; -1: none has the path.
-    std::int32_t region(const std::vector<RegionInfo>& regions, const std::string& path) const;
-
-private:
-    mutable std::once_flag has_names_, has_regions_;
-    mutable std::optional<Names> names_;
-    mutable std::unordered_map<std::string_view, std::int32_t> regions_;
-};
-
-/// The scene, its compiled forms, and the tracers of the caller's thread. If pictures do not show some regions, there
-/// are two more compiled forms, in which only the shown regions or only the ghosts claim; they share nearly all tables.
+/// The scene, its compiled form, and the tracers of the caller's thread. If pictures do not show some regions, there
+/// are two more forms, in which only the shown regions or only the ghosts claim. They share nearly all tables, and exist
+/// as long as a Renderer or a tracer uses them: a Model that is kept for undo has none.
 struct Model::Impl final : ListTracer {
     ModelSource source;
     CompiledScene scene;  ///< the form in which all regions claim
     double tolerance;     ///< millimetres, in double precision
     double compile_ms;    ///< the time of compiling the scene
-    std::optional<CompiledScene> some_shown, some_ghosts;
-    PathIndex paths;
 
     /// Compiles the scene. Throws Error (scene, usage).
     explicit Impl(ModelSource of);
-    /// Takes a scene that is compiled already, and derives the forms for regions' states from it.
+    /// Takes a scene that is compiled already.
     Impl(ModelSource of, CompiledScene made, const Impl& before);
 
     /// The scene in which the regions of `which` claim.
-    const CompiledScene& of(ClaimingRegions which) const {
-        return which == ClaimingRegions::shown && some_shown ? *some_shown
-               : which == ClaimingRegions::ghosts            ? *some_ghosts
-                                                             : scene;
+    static std::shared_ptr<const CompiledScene> of(const std::shared_ptr<const Impl>& model, ClaimingRegions which) {
+        const bool are_all = which == ClaimingRegions::all || (which == ClaimingRegions::shown && model->shows_all());
+        if (are_all) return {model, &model->scene};
+        return model->claimed(which == ClaimingRegions::shown ? State::shown : State::ghost);
     }
-    bool has_ghosts() const { return some_ghosts.has_value(); }
+    bool shows_all() const { return !has(State::ghost) && !has(State::hidden); }
+    bool has(State state) const;
+    /// The names of the source's scene, found when they are first needed. Any thread.
+    const Names& names() const;
 
-    void trace(const RayList& list, RowReceiver& receiver, ClaimingRegions claims) const override {
-        (claims == ClaimingRegions::shown && some_shown ? *shown_ : *all_).trace(list, receiver);
-    }
+    void trace(const RayList& list, RowReceiver& receiver, ClaimingRegions claims) const override;
     /// Calls work(tracer), which computes on the caller's thread.
     template <class Work>
     void call(const Work& work) const {
@@ -110,9 +95,16 @@ struct Model::Impl final : ListTracer {
     }
 
 private:
-    void find_states();
+    std::shared_ptr<const CompiledScene> claimed(State by) const;
 
-    std::optional<CallerTracer> all_, shown_;
+    std::optional<CallerTracer> all_;
+    mutable std::once_flag has_names_;
+    mutable std::optional<Names> names_;
+    mutable std::mutex mutex_;  ///< guards the next member
+    mutable std::weak_ptr<const CompiledScene> claimed_[2];
+    mutable std::once_flag has_shown_;
+    mutable std::shared_ptr<const CompiledScene> shown_scene_;  ///< of the tracer
+    mutable std::optional<CallerTracer> shown_;
 };
 
 /// Throws Error (usage) for a setting that is not a finite number.

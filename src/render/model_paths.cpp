@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "compile/regions/path_table.hpp"
 #include "render/model_impl.hpp"
 #include "scene/object_path.hpp"
 
@@ -34,29 +35,21 @@ std::vector<Operator> joints(const std::vector<TreeNode>& nodes) {
 
 }  // namespace
 
-const Names& PathIndex::names(const Scene& scene) const {
-    std::call_once(has_names_, [&] { names_.emplace(scene); });
+const Names& Model::Impl::names() const {
+    std::call_once(has_names_, [&] { names_.emplace(*source.scene); });
     return *names_;
 }
 
-std::int32_t PathIndex::region(const std::vector<RegionInfo>& regions, const std::string& path) const {
-    std::call_once(has_regions_, [&] {
-        for (std::size_t i = 0; i < regions.size(); ++i)
-            regions_.emplace(regions[i].path, static_cast<std::int32_t>(i));
-    });
-    const auto found = regions_.find(normal_path(path));
-    return found == regions_.end() ? -1 : found->second;
-}
-
 std::int32_t Model::region(const std::string& path) const {
-    const FloatingPoint own;  // hash tables compute, too
-    return impl_->paths.region(regions(), path);
+    const std::string whole = normal_path(path);
+    const std::vector<std::uint32_t> found = LatePathTable::find(impl_->scene, whole);
+    return found.empty() || regions()[found.front()].path != whole ? -1 : static_cast<std::int32_t>(found.front());
 }
 
 Matrix Model::matrix_of(const std::string& path) const {
     const FloatingPoint own;
     const Scene& scene = *impl_->source.scene;
-    const Names& names = impl_->paths.names(scene);
+    const Names& names = impl_->names();
     const ObjectPath found = follow_path(scene, names, path);
     return csgrt::matrix_of(names, found, found.steps.size() - 1);
 }
@@ -64,7 +57,7 @@ Matrix Model::matrix_of(const std::string& path) const {
 Matrix Model::placement_of(const std::string& path) const {
     const FloatingPoint own;
     const Scene& scene = *impl_->source.scene;
-    const Names& names = impl_->paths.names(scene);
+    const Names& names = impl_->names();
     const ObjectPath found = follow_path(scene, names, path);
     return csgrt::placement_of(names, found, found.steps.size() - 1);
 }
@@ -72,7 +65,7 @@ Matrix Model::placement_of(const std::string& path) const {
 std::vector<ChildInfo> Model::children(const std::string& path) const {
     const FloatingPoint own;
     const Scene& scene = *impl_->source.scene;
-    const Names& names = impl_->paths.names(scene);
+    const Names& names = impl_->names();
     std::vector<ChildInfo> found;
     const auto add = [&](std::string way, std::string name, std::uint32_t object, Operator op) {
         const Object& child = scene.objects[object];

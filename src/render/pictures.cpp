@@ -170,7 +170,7 @@ void Renderer::Impl::add_ghosts(const View& view, const PreparedFrame& prepared,
     Image& image = framebuffer.image_;
     const std::span<std::uint32_t> ghosts = image.channels.ids(image.channels.size() - 1);
     std::ranges::fill(ghosts, 0u);
-    if (!model.impl_->has_ghosts()) return;
+    if (!model.impl_->has(State::ghost)) return;
     std::vector<float> seen;
     if (!(prepared.frame.channels & channel::distance)) {
         const Image& shown = draw_beside(view, {}, channel::distance, watch);
@@ -220,7 +220,7 @@ void Renderer::Impl::render(const View& view, Framebuffer& framebuffer, const st
     image.attributes["csgrt:precision"] = statistics.precision;
     image.attributes["csgrt:method"] = statistics.method;
     image.attributes["csgrt:shading"] = settings.display_shading ? "display values" : "linear light";
-    image.attributes["csgrt:scene_hash"] = hexadecimal(model.impl_->of(ClaimingRegions::shown).hash);
+    image.attributes["csgrt:scene_hash"] = hexadecimal(Model::Impl::of(model.impl_, ClaimingRegions::shown)->hash);
     if (!scene().warnings.empty()) image.attributes["csgrt:warnings"] = warnings_attribute(scene().warnings);
     describe_camera(prepared, image);
     end_call(start);

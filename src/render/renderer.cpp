@@ -63,12 +63,12 @@ void Renderer::Impl::use_model(bool is_reference) {
 }
 
 std::shared_ptr<const ModelInUse> Renderer::Impl::used(ClaimingRegions claims, bool is_reference) {
-    const std::shared_ptr<const Model::Impl>& compiled = model.impl_;
-    const CompiledScene& scene = compiled->of(claims);
-    if (&scene == &compiled->scene) claims = ClaimingRegions::all;
+    const std::shared_ptr<const CompiledScene> owner = Model::Impl::of(model.impl_, claims);
+    const CompiledScene& scene = *owner;
+    if (&scene == &model.impl_->scene) claims = ClaimingRegions::all;
     std::shared_ptr<const ModelInUse>& use = in_use[static_cast<std::size_t>(claims)];
     if (!use)
-        use = std::make_shared<ModelInUse>(ModelInUse{compiled, scene,
+        use = std::make_shared<ModelInUse>(ModelInUse{owner, scene,
                                                       is_reference ? nullptr : make_converter(scene, settings),
                                                       is_reference ? make_kernels_to_run(scene, settings) : nullptr});
     return use;

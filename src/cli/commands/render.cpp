@@ -85,7 +85,7 @@ void check(const RenderArguments& arguments) {
 
 /// Refuses an option's look that fits no region. The scene's own looks may fit none, because its regions change over
 /// time.
-void check_looks(const std::vector<Look>& looks, const std::vector<RegionInfo>& regions) {
+void check_looks(const std::vector<Look>& looks, const SharedList<RegionInfo>& regions) {
     for (const Look& look : looks) {
         const bool is_there = std::ranges::any_of(regions, [&](const RegionInfo& region) {
             return region.path.starts_with(look.path) &&

@@ -10,6 +10,7 @@
 #include "compile/bounds/bounds.hpp"
 #include "compile/linear.hpp"
 #include "compile/regions/linearize.hpp"
+#include "compile/regions/path_table.hpp"
 #include "compile/regions/terms.hpp"
 #include "base/parallel.hpp"
 
@@ -18,6 +19,7 @@ namespace csgrt {
 namespace {
 
 constexpr std::size_t chunk_size = 512;
+static_assert(chunk_size % SharedList<RegionInfo>::chunk_size == 0);  // threads make different chunks of the list
 
 /// The packed form of a chunk of regions; positions count from its first word.
 struct RegionChunk {
@@ -31,6 +33,7 @@ struct RegionChunk {
 PackedRegions pack_regions(const FlatScene& flat, const std::vector<FlatTree>& trees,
                            const std::vector<std::uint32_t>& order, const std::vector<Box>& brlcad_boxes) {
     Logic logic;
+    logic.paths = std::make_shared<LatePathTable>();
     const std::size_t count = flat.regions.size();
     std::vector<std::uint32_t> number(order.size());
     constexpr std::size_t many = 65'536;
@@ -39,17 +42,16 @@ PackedRegions pack_regions(const FlatScene& flat, const std::vector<FlatTree>& t
     });
 
     std::vector<RegionWords>& regions = logic.regions.own();
-    std::vector<RegionInfo>& infos = logic.region_info.own();
+    SharedList<RegionInfo>& infos = logic.region_info = SharedList<RegionInfo>(count);
     std::vector<FlatTree>& flat_trees = logic.flat_trees.own();
     resize_cleared(regions, count);
-    resize_cleared(infos, count);
     resize_cleared(flat_trees, count);
     std::vector<RegionChunk> chunks((count + chunk_size - 1) / chunk_size);
     for_chunks(count, chunk_size, 0, [&](std::size_t first, std::size_t last, std::size_t c) {
         RegionChunk& chunk = chunks[c];
         for (std::size_t i = first; i < last; ++i) {
             const FlatRegion& region = flat.regions[i];
-            RegionInfo& info = infos[i] = region.info;
+            RegionInfo& info = infos.own(i) = region.info;
             info.bounds = tree_box(region.tree, brlcad_boxes);
             if (is_finite(info.bounds) && !is_empty(info.bounds)) chunk.bounds = united(chunk.bounds, info.bounds);
             const auto numbered = [&](FlatTree tree) {
@@ -66,6 +68,7 @@ PackedRegions pack_regions(const FlatScene& flat, const std::vector<FlatTree>& t
     for (std::uint32_t i = 0; i < count; ++i) {
         const FlatRegion& region = flat.regions[i];
         ++logic.rank_ends[rank_of(region.info)];
+        if (region.info.state != State::shown) logic.set_state(i, region.info.state);
         if (region.info.finish.light)
             logic.region_lights.push_back({i, *flat.instances[region.tree.nodes.front().solid].matrix});
     }

@@ -1,8 +1,42 @@
 #include "pipeline/passes/scene_tables.hpp"
 
+#include <algorithm>
+#include <cstring>
 #include <span>
 
 namespace csgrt {
+namespace {
+
+/// Calls call(first, end) for the runs of blocks in which differs(first, end) is true.
+template <class Differs, class Call>
+void for_runs(std::size_t count, std::size_t block, const Differs& differs, const Call& call) {
+    for (std::size_t first = 0, end = 0; first < count; first = end) {
+        end = std::min(count, first + block);
+        if (!differs(first, end)) continue;
+        for (; end < count && differs(end, std::min(count, end + block)); end = std::min(count, end + block)) {
+        }
+        call(first, end);
+    }
+}
+
+/// Copies what differs of a table. `bytes`: the elements of `now` in the device's precision.
+template <class T>
+void replace(Buffer& buffer, const SharedVector<T>& before, const SharedVector<T>& now,
+             std::span<const std::byte> bytes) {
+    if (now.empty() || now.shares(before)) return;
+    buffer.reserve(bytes.size());
+    constexpr std::size_t block = 64;
+    const auto differs = [&](std::size_t first, std::size_t end) {
+        return before.size() != now.size() ||
+               std::memcmp(before.data() + first, now.data() + first, (end - first) * sizeof(T)) != 0;
+    };
+    const std::size_t size = bytes.size() / now.size();
+    for_runs(now.size(), block, differs, [&](std::size_t first, std::size_t end) {
+        buffer.upload(bytes.data() + first * size, (end - first) * size, first * size);
+    });
+}
+
+}  // namespace
 
 SceneTables::SceneTables(Device& device, const CompiledScene& scene, const RecordConverter::Tables& tables)
     : scene_(scene),
@@ -14,7 +48,7 @@ SceneTables::SceneTables(Device& device, const CompiledScene& scene, const Recor
       nodes_(device, "bounding volumes", tables.nodes),
       starts_(device, "solids' terms", scene.starts.get()),
       trees_(device, "trees", scene.trees.get()),
-      materials_(device, "materials", scene.materials.get()),
+      materials_(device, "materials", std::vector<kernel::MaterialRecord>(scene.materials)),
       lights_(device, "lights"),
       display_(device, "bytes of a display", scene.display.get()) {}
 
@@ -25,14 +59,20 @@ bool SceneTables::takes(const CompiledScene& scene) const {
 }
 
 void SceneTables::take(const CompiledScene& scene, const RecordConverter::Tables& tables) {
-    const auto replace = [](Buffer& buffer, const auto& values) {
-        buffer.reserve(std::span(values).size_bytes());
-        if (!values.empty()) buffer.upload(values.data(), std::span(values).size_bytes());
+    replace(solids_, scene_.solids, scene.solids, tables.solids);
+    replace(starts_, scene_.starts, scene.starts, std::as_bytes(std::span(scene.starts.get())));
+    replace(display_, scene_.display, scene.display, std::as_bytes(std::span(scene.display.get())));
+    const SharedList<kernel::MaterialRecord>&before = scene_.materials, &now = scene.materials;
+    constexpr std::size_t size = before.chunk_size, bytes = sizeof(kernel::MaterialRecord);
+    materials_.reserve(now.size() * bytes);
+    const auto differs = [&](std::size_t first, std::size_t) {
+        return before.size() != now.size() || before.chunk(first / size).data() != now.chunk(first / size).data();
     };
-    if (!scene.solids.shares(scene_.solids)) replace(solids_, tables.solids);
-    if (!scene.starts.shares(scene_.starts)) replace(starts_, scene.starts.get());
-    if (!scene.materials.shares(scene_.materials)) replace(materials_, scene.materials.get());
-    if (!scene.display.shares(scene_.display)) replace(display_, scene.display.get());
+    for_runs(now.size(), size, differs, [&](std::size_t first, std::size_t end) {
+        const std::vector<kernel::MaterialRecord> run(now.begin() + static_cast<std::ptrdiff_t>(first),
+                                                      now.begin() + static_cast<std::ptrdiff_t>(end));
+        materials_.upload(run.data(), run.size() * bytes, first * bytes);
+    });
     scene_ = scene;
 }
 
