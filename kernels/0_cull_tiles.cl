@@ -66,13 +66,14 @@ static void store_sorted(beam b, TileNode* list, u32 count, int by_distance, __g
 }
 
 // Counts the listed nodes and all nodes below them, up to 254. The time of a tile's rays is about proportional to the
-// count. 0: all nodes are before the starting node.
-static u32 count_nodes(__global const BvhNode* nodes, const TileNode* list, u32 count, u32 starting_node) {
+// count. 0: no solid of the nodes starts a term.
+static u32 count_nodes(__global const Frame* frame, __global const BvhNode* nodes,
+                       __global const unsigned char* starting, const TileNode* list, u32 count) {
     u32 i, sum = 0, starts = 0;
     for (i = 0; i < count; ++i) {
         const u32 end = nodes[list[i].node].skip;
         sum += end - list[i].node;
-        starts |= end > starting_node;
+        starts |= starting && !frame->every_partition ? starting[list[i].node] : end > frame->starting_node;
     }
     return !starts ? 0 : sum < 254 ? sum : 254;
 }
@@ -88,21 +89,25 @@ static u32 meets_anything(beam b, __global const BvhNode* nodes, u32 count) {
 }
 
 // Runs one work-item a tile. Stores the tile's cost, 0 if none of its rays meets a solid that can be seen. Stores the
-// tile's list of at most LISTED_NODES nodes, too, unless `lists` is 0.
-__kernel void cull_tiles(__global const Frame* frame, __global const BvhNode* nodes, __global unsigned char* costs,
-                         __global TileNode* lists, __global BatchReport* report) {
+// tile's list of at most LISTED_NODES nodes, too, unless `lists` is 0. `starting`: for each node whether a solid of it
+// starts a term; 0: those from the starting node on do. `ends`: for each tile of the screen, the
+// distance from the eye behind which nothing of it is wanted; 0: everything is.
+__kernel void cull_tiles(__global const Frame* frame, __global const BvhNode* nodes,
+                         __global const unsigned char* starting, __global const float* ends,
+                         __global unsigned char* costs, __global TileNode* lists, __global BatchReport* report) {
     const u32 id = (u32)get_global_id(0), tiles = frame->ray_count / (TILE * TILE);
     u32 cost = 0;
     beam b;
     if (frame->rows) clear_report(report, tiles, id);
     if (id >= tiles) return;
     b = make_beam(frame, frame->first_ray / (TILE * TILE) + id);
+    if (ends) end_beam(&b, frame, ends[frame->first_ray / (TILE * TILE) + id]);
     if (lists) {
         TileNode list[LISTED_NODES - 1];
         u32 count = 0;
         if (b.slabs.hits_sphere && frame->node_count > 0) count = list_nodes(b, nodes, list);
         store_sorted(b, list, count, !frame->every_partition, lists + (size_t)id * LISTED_NODES);
-        cost = count_nodes(nodes, list, count, frame->starting_node);
+        cost = count_nodes(frame, nodes, starting, list, count);
     } else if (b.slabs.hits_sphere) {
         cost = meets_anything(b, nodes, frame->node_count);
     }

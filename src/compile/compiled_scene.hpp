@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -68,6 +69,8 @@ struct Logic {
     std::vector<RegionLight> region_lights;  ///< of the regions that shine
     Box bounds;                              ///< of the regions, by BRL-CAD's rules (see tree_box)
     SharedVector<std::uint8_t> claims;       ///< one a region, 0: it claims nothing; empty: all claim (claimed_by)
+    SharedVector<std::uint8_t> starting;     ///< one a node: whether a solid of it starts a term; empty: all claim
+    std::optional<Box> claim_box;            ///< around the solids that start a term; none: all claim
 
     void set_state(std::size_t region, State state) {
         if (states.empty()) states.resize(region_info.size());

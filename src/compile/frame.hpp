@@ -18,6 +18,9 @@ struct PreparedFrame {
     Vec3 center;
     double aspect = 1;       ///< of the whole view: width / height
     std::uint64_t rays = 0;  ///< rays of the screen's pixels, filled up to whole tiles
+    /// For each tile of the screen, the distance at and behind which its pixels may have anything, also the background.
+    /// Empty: every pixel has its first hit. Only of first hits; the first channel is then the distance.
+    std::vector<float> ends;
 };
 
 /// The rays of a view that are drawn: every `step`-th column and line from the first ones on, moved by a fraction of a

@@ -4,6 +4,9 @@
 #include <cmath>
 #include <vector>
 
+#include "compile/linear.hpp"
+#include "scene/vector.hpp"
+
 namespace csgrt {
 namespace {
 
@@ -33,13 +36,14 @@ struct Extent {
     double left = INFINITY, right = -INFINITY, top = INFINITY, bottom = -INFINITY;
 };
 
-// Extends the range by the projection of the box, larger by `more` all around. Returns false if a part of the box is
-// not before the eye.
-bool take_in(const kernel::Frame& f, const kernel::BvhNode& box, double more, Extent& extent) {
+// Extends the range by the projection of the box, which is relative to the center and grown by `more` all around.
+// Returns false if a part of the box is not before the eye.
+bool take_in(const kernel::Frame& f, const Box& box, double more, Extent& extent) {
+    const double low[] = {box.low.x, box.low.y, box.low.z}, high[] = {box.high.x, box.high.y, box.high.z};
     for (unsigned corner = 0; corner < 8; ++corner) {
         double p[3];
         for (unsigned k = 0; k < 3; ++k)
-            p[k] = f.center[k] - f.eye[k] + (corner >> k & 1 ? box.high[k] + more : box.low[k] - more);
+            p[k] = f.center[k] - f.eye[k] + (corner >> k & 1 ? high[k] + more : low[k] - more);
         double scale = 1;
         if (f.perspective) {
             scale = dot(p, f.w) / dot(f.w, f.w);
@@ -56,24 +60,8 @@ bool take_in(const kernel::Frame& f, const kernel::BvhNode& box, double more, Ex
     return true;
 }
 
-}  // namespace
-
-kernel::ScreenBounds screen_bounds(const CompiledScene& scene, const kernel::Frame& f) {
-    const kernel::ScreenBounds all{0, 0, f.width, f.height};
-    if (scene.unbounded_count > 0) return all;
-    if (scene.nodes.empty()) return {};
-    // The margin covers the growth of boxes in single precision (kernels/shared/slab.h) and the rounding of
-    // coordinates. It is the same for every precision.
-    double to_center = 0, center = 0;
-    for (int k = 0; k < 3; ++k) {
-        to_center = std::hypot(to_center, f.eye[k] - f.center[k]);
-        center = std::hypot(center, f.center[k]);
-    }
-    const double more = (f.radius + to_center + center) * 0x1p-16;
-    Extent extent;
-    for (const kernel::BvhNode& box : upper_boxes(scene.nodes))
-        if (!take_in(f, box, more, extent)) return all;
-
+/// The pixels around an extent, in whole tiles; empty if there are none.
+kernel::ScreenBounds pixels_of(const Extent& extent, const kernel::Frame& f) {
     constexpr double margin = 2;  // pixels
     const auto within = [](double at, std::uint32_t size) {
         return static_cast<std::uint32_t>(std::clamp(at, 0.0, 1.0 * size));
@@ -85,6 +73,43 @@ kernel::ScreenBounds screen_bounds(const CompiledScene& scene, const kernel::Fra
     screen.bottom = within(std::ceil(extent.bottom + margin + 1), f.height);
     screen.right = std::min(f.width, (screen.right + TILE - 1) / TILE * TILE);
     screen.bottom = std::min(f.height, (screen.bottom + TILE - 1) / TILE * TILE);
+    if (screen.left >= screen.right || screen.top >= screen.bottom) return {};
+    return screen;
+}
+
+/// The pixels in which the hierarchy's upper boxes are seen. `more`: how much boxes grow.
+kernel::ScreenBounds bounds_of_solids(const CompiledScene& scene, const kernel::Frame& f, double more) {
+    const kernel::ScreenBounds all{0, 0, f.width, f.height};
+    if (scene.unbounded_count > 0) return all;
+    if (scene.nodes.empty()) return {};
+    Extent extent;
+    for (const kernel::BvhNode& box : upper_boxes(scene.nodes))
+        if (!take_in(f, {{box.low[0], box.low[1], box.low[2]}, {box.high[0], box.high[1], box.high[2]}}, more, extent))
+            return all;
+    return pixels_of(extent, f);
+}
+
+}  // namespace
+
+kernel::ScreenBounds screen_bounds(const CompiledScene& scene, const kernel::Frame& f) {
+    // The margin covers the growth of boxes in single precision (kernels/shared/slab.h) and the rounding of
+    // coordinates. It is the same for every precision.
+    double to_center = 0, center = 0;
+    for (int k = 0; k < 3; ++k) {
+        to_center = std::hypot(to_center, f.eye[k] - f.center[k]);
+        center = std::hypot(center, f.center[k]);
+    }
+    const double more = (f.radius + to_center + center) * 0x1p-16;
+    kernel::ScreenBounds screen = bounds_of_solids(scene, f, more);
+    if (f.every_partition || !scene.claim_box || !is_finite(*scene.claim_box))
+        return screen;  // every partition counts all solids
+    const Box& box = *scene.claim_box;
+    if (is_empty(box)) return {};
+    Extent extent;
+    if (!take_in(f, {box.low - scene.center, box.high - scene.center}, more, extent)) return screen;
+    const kernel::ScreenBounds claimed = pixels_of(extent, f);
+    screen = {std::max(screen.left, claimed.left), std::max(screen.top, claimed.top),
+              std::min(screen.right, claimed.right), std::min(screen.bottom, claimed.bottom)};
     if (screen.left >= screen.right || screen.top >= screen.bottom) return {};
     return screen;
 }

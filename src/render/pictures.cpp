@@ -69,10 +69,10 @@ void Renderer::Impl::draw(const PreparedFrame& prepared, Framebuffer& framebuffe
     }
 }
 
-/// Draws other rays of the view into the framebuffer `beside`.
+/// Draws other rays of the view, or other channels, into the framebuffer `beside`.
 const Image& Renderer::Impl::draw_beside(const View& view, const Sampling& sampling, std::uint32_t channels,
                                          Watch& watch) {
-    PreparedFrame prepared = prepare_frame(scene(), view, tolerance, sampling);
+    PreparedFrame prepared = prepare_frame(scene_of(ClaimingRegions::shown), view, tolerance, sampling);
     prepared.frame.channels = channels;
     fit(beside, prepared.frame, channels, watch);
     draw(prepared, beside, watch);
@@ -80,22 +80,33 @@ const Image& Renderer::Impl::draw_beside(const View& view, const Sampling& sampl
 }
 
 /// Draws every 8th pixel in each direction, then the missing pixels of every 4th, of every 2nd, and all pixels. In each
-/// step drawn pixels also fill the pixels that are still missing. Returns false if `coarse` ended the drawing.
+/// step drawn pixels also fill the pixels that are still missing. Without `coarse` it draws all pixels at once.
+/// `distances` gets the distances of the pixels, unless it is empty. Returns false if `coarse` ended the drawing.
 bool Renderer::Impl::draw_coarse(const View& view, const PreparedFrame& prepared, Framebuffer& framebuffer,
-                                 const std::function<bool(int)>& coarse, Watch& watch) {
+                                 std::vector<float>& distances, const std::function<bool(int)>& coarse, Watch& watch) {
     Image& image = framebuffer.image_;
     std::ranges::fill(framebuffer.covered_, std::uint8_t{1});
+    const std::uint32_t channels = prepared.frame.channels | (distances.empty() ? 0 : channel::distance);
+    std::vector<float*> targets;
+    std::size_t own = 0;
+    for (const ChannelSource& source : channel_table)
+        if (channels & source.group)
+            targets.push_back(prepared.frame.channels & source.group ? image.channels[own++].data() : distances.data());
     const auto put = [&](const Sampling& sampling, std::size_t size) {
         if (sampling.column >= image.width || sampling.line >= image.height) return;
-        const Image& part = draw_beside(view, sampling, prepared.frame.channels, watch);
+        const Image& part = draw_beside(view, sampling, channels, watch);
         const auto width = static_cast<std::size_t>(image.width), height = static_cast<std::size_t>(image.height);
         const auto columns = static_cast<std::size_t>(part.width), step = static_cast<std::size_t>(sampling.step);
         for_chunks(static_cast<std::size_t>(part.height), 4, 0, [&](std::size_t line, std::size_t end, std::size_t) {
             for (; line < end; ++line)
                 for (std::size_t c = 0; c < part.channels.size(); ++c) {
                     const std::size_t top = static_cast<std::size_t>(sampling.line) + line * step;
-                    float* const first = image.channels[c].data() + top * width;
+                    float* const first = targets[c] + top * width;
                     const float* from = part.channels[c].data() + line * columns;
+                    if (step == 1) {
+                        std::copy_n(from, width, first);
+                        continue;
+                    }
                     for (std::size_t x = static_cast<std::size_t>(sampling.column); x < width; x += step)
                         std::fill_n(first + x, std::min(size, width - x), *from++);
                     for (std::size_t y = top + 1; y < std::min(top + size, height); ++y)
@@ -104,6 +115,7 @@ bool Renderer::Impl::draw_coarse(const View& view, const PreparedFrame& prepared
                 }
         });
     };
+    if (!coarse) return put({}, 1), true;
     put({.step = 8}, 8);
     for (int size = 4; size >= 1; size /= 2) {
         if (!coarse(2 * size)) return false;
@@ -164,24 +176,32 @@ std::uint32_t Renderer::Impl::word_of(const float (&color)[4]) const {
     return word;
 }
 
-/// Adds ghosts that lie before the picture's surfaces.
-void Renderer::Impl::add_ghosts(const View& view, const PreparedFrame& prepared, Framebuffer& framebuffer,
+/// Adds ghosts that lie before the picture's surfaces, whose distances are `distances`. What lies behind the surfaces is
+/// not drawn.
+void Renderer::Impl::add_ghosts(const View& view, Framebuffer& framebuffer, std::span<const float> distances,
                                 Watch& watch) {
-    Image& image = framebuffer.image_;
-    const std::span<std::uint32_t> ghosts = image.channels.ids(image.channels.size() - 1);
-    std::ranges::fill(ghosts, 0u);
-    if (!model.impl_->has(State::ghost)) return;
-    std::vector<float> seen;
-    if (!(prepared.frame.channels & channel::distance)) {
-        const Image& shown = draw_beside(view, {}, channel::distance, watch);
-        seen.assign(shown.channels[0].begin(), shown.channels[0].end());
-    }
-    const std::span<const float> distances = seen.empty() ? image.channel("Z") : std::span<const float>(seen);
-    prepare(prepared.frame.every_partition, ClaimingRegions::ghosts);
-    const Image& passed = draw_beside(view, {}, channel::distance | channel::ids, watch);
-    const std::span<const std::uint32_t> regions = passed.ids("region");
+    PreparedFrame prepared = prepare_frame(scene_of(ClaimingRegions::ghosts), view, tolerance);
+    kernel::Frame& frame = prepared.frame;
+    frame.channels = channel::distance | channel::ids;
+    const kernel::ScreenBounds& screen = frame.screen;
+    const std::size_t columns = kernel::tiles_across(screen), tiles = columns * kernel::tiles_down(screen);
+    if (!frame.every_partition) prepared.ends.assign(tiles, 0);
+    for_chunks(prepared.ends.size(), 64, 0, [&](std::size_t tile, std::size_t end, std::size_t) {
+        for (; tile < end; ++tile) {
+            const std::size_t left = screen.left + tile % columns * TILE, top = screen.top + tile / columns * TILE;
+            for (std::size_t y = top; y < std::min<std::size_t>(top + TILE, screen.bottom); ++y)
+                for (std::size_t x = left; x < std::min<std::size_t>(left + TILE, screen.right); ++x)
+                    prepared.ends[tile] = std::max(prepared.ends[tile], distances[y * frame.width + x]);
+        }
+    });
+    prepare(frame.every_partition, ClaimingRegions::ghosts);
+    fit(passed, frame, frame.channels, watch);
+    draw(prepared, passed, watch);
+    const std::span<const float> found = passed.image_.channels[0];
+    const std::span<const std::uint32_t> regions = passed.image_.ids("region");
+    const std::span<std::uint32_t> ghosts = framebuffer.image_.channels.ids(framebuffer.image_.channels.size() - 1);
     for (std::size_t i = 0; i < ghosts.size(); ++i)
-        if (passed.channels[0][i] < distances[i]) ghosts[i] = regions[i];
+        if (found[i] < distances[i]) ghosts[i] = regions[i];
     std::ranges::fill(framebuffer.covered_, std::uint8_t{1});
 }
 
@@ -189,7 +209,7 @@ void Renderer::Impl::render(const View& view, Framebuffer& framebuffer, const st
                             Watch& watch) {
     const auto start = Clock::now();
     take_next();
-    const PreparedFrame prepared = prepare_frame(scene(), view, tolerance);
+    const PreparedFrame prepared = prepare_frame(scene_of(ClaimingRegions::shown), view, tolerance);
     const bool every_partition = prepared.frame.every_partition;
     start_call(std::uint64_t{prepared.frame.width} * prepared.frame.height, every_partition,
                static_cast<int>(prepared.frame.width), static_cast<int>(prepared.frame.height));
@@ -204,15 +224,21 @@ void Renderer::Impl::render(const View& view, Framebuffer& framebuffer, const st
         prepare(every_partition, ClaimingRegions::shown);
         fit_picture();
     }
+    const bool wants_ghosts = view.channels & channel::ghosts,
+               has_ghosts = wants_ghosts && model.impl_->has(State::ghost);
+    const bool has_distances = prepared.frame.channels & channel::distance;
+    std::vector<float> distances;  // of the picture, if it has no such channel
+    if (has_ghosts && !has_distances) distances.resize(std::size_t{prepared.frame.width} * prepared.frame.height);
     bool is_whole = true;
-    if (coarse)
-        is_whole = draw_coarse(view, prepared, framebuffer, coarse, watch);
+    if (coarse || !distances.empty())
+        is_whole = draw_coarse(view, prepared, framebuffer, distances, coarse, watch);
     else
         draw(prepared, framebuffer, watch);
     if (view.samples > 1 && is_whole && (prepared.frame.channels & (channel::color | channel::display)))
         add_samples(view, prepared, framebuffer, watch);
-    if (view.channels & channel::ghosts) add_ghosts(view, prepared, framebuffer, watch);
     Image& image = framebuffer.image_;
+    if (wants_ghosts) std::ranges::fill(image.channels.ids(image.channels.size() - 1), 0u);
+    if (has_ghosts) add_ghosts(view, framebuffer, has_distances ? image.channel("Z") : distances, watch);
     image.display_values = settings.display_shading;
     image.attributes.clear();
     image.attributes["csgrt:version"] = version();

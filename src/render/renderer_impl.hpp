@@ -31,6 +31,7 @@ struct Renderer::Impl {
     std::vector<Warning> device_warnings;
     Statistics statistics;
     Framebuffer beside;  ///< for rays beside the pixels' middles
+    Framebuffer passed;  ///< for ghosts
 
     Impl(Model of, const Settings& given) : settings(given), model(std::move(of)), next(model) {}
 
@@ -42,6 +43,7 @@ struct Renderer::Impl {
     void use_model(bool is_reference);
     void take_next();
     std::shared_ptr<const ModelInUse> used(ClaimingRegions claims, bool is_reference);
+    const CompiledScene& scene_of(ClaimingRegions claims) { return used(claims, backend->is_reference())->scene; }
     void warn(std::string reason);
     void set_up_devices();
     void use_reference();
@@ -53,9 +55,9 @@ struct Renderer::Impl {
     void draw(const PreparedFrame& prepared, Framebuffer& framebuffer, Watch& watch);
     const Image& draw_beside(const View& view, const Sampling& sampling, std::uint32_t channels, Watch& watch);
     bool draw_coarse(const View& view, const PreparedFrame& prepared, Framebuffer& framebuffer,
-                     const std::function<bool(int)>& coarse, Watch& watch);
+                     std::vector<float>& distances, const std::function<bool(int)>& coarse, Watch& watch);
     void add_samples(const View& view, const PreparedFrame& prepared, Framebuffer& framebuffer, Watch& watch);
-    void add_ghosts(const View& view, const PreparedFrame& prepared, Framebuffer& framebuffer, Watch& watch);
+    void add_ghosts(const View& view, Framebuffer& framebuffer, std::span<const float> distances, Watch& watch);
     std::uint32_t word_of(const float (&color)[4]) const;
     void render(const View& view, Framebuffer& framebuffer, const std::function<bool(int)>& coarse, Watch& watch);
     void trace(const RayList& list, RowReceiver& receiver, ClaimingRegions claims, Watch& watch);

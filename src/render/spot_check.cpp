@@ -48,7 +48,13 @@ void SpotCheck::compare(const CompiledScene& scene, const PreparedFrame& frame, 
     if (pixels.empty()) return;
     ReferenceCounts counts;
     const std::vector<kernel::Pixel> right = reference(scene).render(frame, &watch, counts, &pixels);
-    for (std::size_t i = 0; i < pixels.size(); ++i)
+    const kernel::ScreenBounds& screen = frame.frame.screen;
+    const auto is_wanted = [&](std::size_t pixel, float distance) {
+        const std::size_t x = pixel % frame.frame.width - screen.left, y = pixel / frame.frame.width - screen.top;
+        return frame.ends.empty() || distance < frame.ends[y / TILE * kernel::tiles_across(screen) + x / TILE];
+    };
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+        if (!is_wanted(pixels[i], right[i].z) && !is_wanted(pixels[i], memory.channels[0].pixels[pixels[i]])) continue;
         for (std::size_t c = 0; c < memory.channels.size(); ++c) {
             const float found = memory.channels[c].pixels[pixels[i]],
                         expected = memory.sources[c]->value(right[i], scene.display[0]);
@@ -57,6 +63,7 @@ void SpotCheck::compare(const CompiledScene& scene, const PreparedFrame& frame, 
                              std::to_string(pixels[i] / frame.frame.width) + " has " + text_of(found) +
                              " in the channel " + memory.sources[c]->name + ", the reference " + text_of(expected));
         }
+    }
 }
 
 void SpotCheck::compare(const CompiledScene& scene, const kernel::Frame& frame, const RayList& rays,

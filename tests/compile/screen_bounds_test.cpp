@@ -7,6 +7,7 @@
 #include "stress/parts.hpp"
 #include "catch.hpp"
 #include "compile/model.hpp"
+#include "compile/regions/claimed_by.hpp"
 #include "reference/reference.hpp"
 #include "sanitized.hpp"
 #include "stress/rewrite.hpp"
@@ -15,7 +16,8 @@ using namespace csgrt;
 
 namespace {
 
-/// Pixels outside of the screen that a segment is seen at, and how much of the picture the screen is.
+/// Pixels outside of the screen that a segment is seen at, or of first hits a region, and how much of the picture the
+/// screen is.
 struct Outcome {
     std::size_t missed = 0;
     double part = 0;
@@ -34,7 +36,8 @@ Outcome look(const CompiledScene& compiled, const ReferenceKernels& kernels, con
     for (std::uint32_t y = 0; y < prepared.frame.height; ++y)
         for (std::uint32_t x = 0; x < prepared.frame.width; ++x) {
             const bool is_within = x >= w.left && x < w.right && y >= w.top && y < w.bottom;
-            outcome.missed += !is_within && pixels[std::size_t{y} * prepared.frame.width + x].depth > 0;
+            const kernel::Pixel& pixel = pixels[std::size_t{y} * prepared.frame.width + x];
+            outcome.missed += !is_within && (view.every_partition ? pixel.depth > 0 : pixel.region > 0);
         }
     outcome.part =
         double(w.right - w.left) * (w.bottom - w.top) / (double(prepared.frame.width) * prepared.frame.height);
@@ -77,6 +80,26 @@ TEST_CASE("no ray outside of the screen meets anything") {
     }
     CHECK(missed == 0);
     if (away == 0 && !test::sanitized) CHECK(small > views / 8);
+}
+
+TEST_CASE("no ray outside of the screen of first hits meets a region that claims") {
+    const Scene scene = stress::scene_of_parts(30);
+    CompiledScene all = compile(scene);
+    const auto kernels = make_kernels(all, {});
+    std::mt19937 random(8);
+    std::size_t missed = 0, small = 0;
+    constexpr int views = test::sanitized ? 3 : 24;
+    for (int i = 0; i < views; ++i) {
+        for (std::size_t region = 0; region < all.region_info.size(); ++region)
+            all.set_state(region, random() % 10 ? State::hidden : State::shown);
+        View view = random_view(random, all.center, 2 * all.radius);
+        view.every_partition = false;
+        const Outcome outcome = look(claimed_by(all, State::shown), *kernels, view);
+        missed += outcome.missed;
+        small += outcome.part < look(all, *kernels, view).part;
+    }
+    CHECK(missed == 0);
+    CHECK(small > views / 3);
 }
 
 TEST_CASE(

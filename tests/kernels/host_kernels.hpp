@@ -102,7 +102,8 @@ inline HostTiles cull(const CompiledScene& scene, const kernel::Frame& frame) {
     tiles.costs.resize(frame.ray_count / (TILE * TILE));
     tiles.lists.resize(tiles.costs.size() * LISTED_NODES);
     for (global_id = 0; global_id < tiles.costs.size(); ++global_id)
-        cull_tiles(&frame, scene.nodes.data(), tiles.costs.data(), tiles.lists.data(), nullptr);
+        cull_tiles(&frame, scene.nodes.data(), scene.starting.data(), nullptr, tiles.costs.data(), tiles.lists.data(),
+                   nullptr);
     return tiles;
 }
 

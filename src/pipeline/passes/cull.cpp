@@ -14,8 +14,8 @@ Event CullPass::launch(const SceneTables& scene, BatchBuffers& batch, const kern
     else
         batch.tile_nodes.reserve(tiles * LISTED_NODES * sizeof(kernel::TileNode));
     if (frame.rows) batch.report.reserve(BatchBuffers::report_bytes({0, frame.ray_count}));
-    return cull_tiles_.launch(tiles, divergent_group(device_), batch.frame, scene.nodes(), batch.costs,
-                              batch.tile_nodes, batch.report);
+    return cull_tiles_.launch(tiles, divergent_group(device_), batch.frame, scene.nodes(), scene.starting(),
+                              scene.ends(), batch.costs, batch.tile_nodes, batch.report);
 }
 
 std::vector<std::uint32_t> CullPass::seen(const RayBatch& batch, const BatchBuffers& buffers) {

@@ -23,7 +23,8 @@ void for_runs(std::size_t count, std::size_t block, const Differs& differs, cons
 template <class T>
 void replace(Buffer& buffer, const SharedVector<T>& before, const SharedVector<T>& now,
              std::span<const std::byte> bytes) {
-    if (now.empty() || now.shares(before)) return;
+    if (now.shares(before)) return;
+    if (now.empty()) return buffer.release();
     buffer.reserve(bytes.size());
     constexpr std::size_t block = 64;
     const auto differs = [&](std::size_t first, std::size_t end) {
@@ -50,7 +51,9 @@ SceneTables::SceneTables(Device& device, const CompiledScene& scene, const Recor
       trees_(device, "trees", scene.trees.get()),
       materials_(device, "materials", std::vector<kernel::MaterialRecord>(scene.materials)),
       lights_(device, "lights"),
-      display_(device, "bytes of a display", scene.display.get()) {}
+      display_(device, "bytes of a display", scene.display.get()),
+      starting_(device, "nodes that start terms", scene.starting.get()),
+      ends_(device, "ends of tiles") {}
 
 bool SceneTables::takes(const CompiledScene& scene) const {
     return scene.reals.shares(scene_.reals) && scene.planes.shares(scene_.planes) && scene.words.shares(scene_.words) &&
@@ -61,6 +64,7 @@ bool SceneTables::takes(const CompiledScene& scene) const {
 void SceneTables::take(const CompiledScene& scene, const RecordConverter::Tables& tables) {
     replace(solids_, scene_.solids, scene.solids, tables.solids);
     replace(starts_, scene_.starts, scene.starts, std::as_bytes(std::span(scene.starts.get())));
+    replace(starting_, scene_.starting, scene.starting, std::as_bytes(std::span(scene.starting.get())));
     replace(display_, scene_.display, scene.display, std::as_bytes(std::span(scene.display.get())));
     const SharedList<kernel::MaterialRecord>&before = scene_.materials, &now = scene.materials;
     constexpr std::size_t size = before.chunk_size, bytes = sizeof(kernel::MaterialRecord);
@@ -74,6 +78,12 @@ void SceneTables::take(const CompiledScene& scene, const RecordConverter::Tables
         materials_.upload(run.data(), run.size() * bytes, first * bytes);
     });
     scene_ = scene;
+}
+
+void SceneTables::set_ends(const std::vector<float>& ends) {
+    if (ends.empty()) return ends_.release();  // kernels get a null pointer
+    ends_.reserve(ends.size() * sizeof(float));
+    ends_.upload(ends);
 }
 
 void SceneTables::set_lights(const std::vector<std::byte>& lights) {

@@ -21,7 +21,12 @@ public:
     /// Uploads a frame's lights, as the kernels' records. Returns when the upload is done.
     void set_lights(const std::vector<std::byte>& lights);
 
+    /// Uploads a frame's ends (PreparedFrame), in the same way.
+    void set_ends(const std::vector<float>& ends);
+
     const Buffer& nodes() const { return nodes_; }  ///< the scene's hierarchy
+    const Buffer& starting() const { return starting_; }
+    const Buffer& ends() const { return ends_; }
     auto geometry() const { return std::tie(solids_, reals_, planes_, words_, inner_nodes_); }  ///< GEOMETRY_ARGS
     auto regions() const { return std::tie(starts_, trees_); }                                  ///< REGION_ARGS
     auto appearance() const { return std::tie(materials_, lights_, display_); }                 ///< APPEARANCE_ARGS
@@ -30,7 +35,8 @@ public:
 
 private:
     CompiledScene scene_;  ///< the scene of the tables
-    Buffer solids_, reals_, planes_, words_, inner_nodes_, nodes_, starts_, trees_, materials_, lights_, display_;
+    Buffer solids_, reals_, planes_, words_, inner_nodes_, nodes_, starts_, trees_, materials_, lights_, display_,
+        starting_, ends_;
 };
 
 }  // namespace csgrt

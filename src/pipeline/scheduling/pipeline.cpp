@@ -40,6 +40,7 @@ void Pipeline::render(const PreparedFrame& prepared, const TakeRays& take, const
                       const ReportDone& report_done, PipelineCounts& counts) {
     const kernel::Frame& frame = prepared.frame;
     passes_.tables->set_lights(passes_.records().lights(prepared.lights));
+    passes_.tables->set_ends(prepared.ends);
     prepare(frame.every_partition);
     const FrameShape shape = shape_of(frame, target.channels.size());
     const std::uint32_t underway = asynchronous_ ? 2 : 1;
