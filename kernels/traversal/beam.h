@@ -16,7 +16,7 @@ typedef struct {
     float pad;   // how much boxes grow
     wide start;  // where the middle ray's parameter is 0: a distance from the eye
     wide to_center;
-    float end;  // what comes later needs no list, in the list's distances; BOX_MISSED: everything needs it
+    float end;  // boxes that the middle ray enters later are not listed
 } beam;
 
 // The distance of the scene's center from the eye, or from the picture plane.
@@ -51,10 +51,9 @@ FN beam make_beam(GLOBAL const Frame* f, u32 tile) {
 // Ends the beam so far behind `end`, a distance from the eye, that no boundary of a later box joins an event before
 // `end` or before the eye.
 FN void end_beam(beam* b, GLOBAL const Frame* f, float end) {
-    const wide at = wide_max((wide)end, (wide)0);
-    if (end < BOX_MISSED)
-        b->end = (float)(at + 4 * (wide)f->tolerance + (at + wide_abs(b->to_center) + (wide)f->radius) * (wide)0x1p-18 -
-                         b->to_center);
+    const wide at = wide_max((wide)end, (wide)0), rounding = at + wide_abs(b->to_center) + (wide)f->radius,
+               slack = 4 * (wide)f->tolerance + rounding * (wide)0x1p-18 + (wide)b->pad;
+    if (end < BOX_MISSED) b->end = end_of_range(b->slabs, REAL(f->radius) + REAL(b->pad), REAL(at + slack - b->start));
 }
 
 // The list of nodes of the tile with ray `number`.
@@ -72,19 +71,19 @@ FN float beam_entry(beam b, BvhNode node) {
     return box_entry(b.slabs, node);
 }
 
+FN TileNode entry_of(beam b, GLOBAL const BvhNode* nodes, u32 node) {
+    TileNode e;
+    e.node = node;
+    e.entry = beam_entry(b, nodes[node]);
+    if (e.entry > b.end) e.entry = BOX_MISSED;
+    return e;
+}
+
 // The distance that the list stores, relative to the scene's center. A box that is entered before t_min may hold a
 // segment that begins even earlier.
 FN float entry_from_center(beam b, float at) {
     if (at <= b.slabs.t_min) return -BOX_MISSED;
     return (float)(b.start + (wide)distance_before(b.slabs, at) - b.to_center) - b.pad;
-}
-
-FN TileNode entry_of(beam b, GLOBAL const BvhNode* nodes, u32 node) {
-    TileNode e;
-    e.node = node;
-    e.entry = beam_entry(b, nodes[node]);
-    if (b.end < BOX_MISSED && e.entry < BOX_MISSED && entry_from_center(b, e.entry) > b.end) e.entry = BOX_MISSED;
-    return e;
 }
 
 // The difference between the list's distances and the parameter of one of the beam's rays.

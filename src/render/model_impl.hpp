@@ -61,8 +61,8 @@ struct ModelSource {
 };
 
 /// The scene, its compiled form, and the tracers of the caller's thread. If pictures do not show some regions, there
-/// are two more forms, in which only the shown regions or only the ghosts claim. They share nearly all tables, and exist
-/// as long as a Renderer or a tracer uses them: a Model that is kept for undo has none.
+/// are two more forms, in which only the shown regions or only the ghosts claim. They share nearly all tables, and
+/// exist as long as a Renderer or a tracer uses them: a Model that is kept for undo has none.
 struct Model::Impl final : ListTracer {
     ModelSource source;
     CompiledScene scene;  ///< the form in which all regions claim

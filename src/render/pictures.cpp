@@ -176,8 +176,8 @@ std::uint32_t Renderer::Impl::word_of(const float (&color)[4]) const {
     return word;
 }
 
-/// Adds ghosts that lie before the picture's surfaces, whose distances are `distances`. What lies behind the surfaces is
-/// not drawn.
+/// Adds ghosts that lie before the picture's surfaces, whose distances are `distances`. What lies behind the surfaces
+/// is not drawn.
 void Renderer::Impl::add_ghosts(const View& view, Framebuffer& framebuffer, std::span<const float> distances,
                                 Watch& watch) {
     PreparedFrame prepared = prepare_frame(scene_of(ClaimingRegions::ghosts), view, tolerance);
