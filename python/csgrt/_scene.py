@@ -152,7 +152,10 @@ class Subtree:
 
 
 def _matrix(matrix: ArrayLike) -> NDArray[np.float64]:
-    return np.ascontiguousarray(unmasked(matrix, "a matrix's elements"), np.float64)
+    array = np.ascontiguousarray(unmasked(matrix, "a matrix's elements"), np.float64)
+    if array.shape != (4, 4):
+        raise ValueError(f"a matrix has the shape (4, 4), not {array.shape}")
+    return array
 
 
 class Scene(_core.Scene):

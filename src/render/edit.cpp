@@ -85,12 +85,10 @@ void Edit::Impl::add(Look look) {
 }
 
 std::ptrdiff_t Edit::Impl::root(const std::string& path) {
-    const std::string whole = normal_path(path);
-    const std::vector<std::string>& all = rendered();
-    const auto found = std::ranges::find_if(all, [&](const std::string& name) { return normal_path(name) == whole; });
-    if (found == all.end()) return -1;
-    if (all.size() == 1) throw Error(Status::usage, "'" + path + "' is all that is rendered");
-    return found - all.begin();
+    const std::size_t number = position(rendered(), path), count = rendered().size();
+    if (number == count) return -1;
+    if (count == 1) throw Error(Status::usage, "'" + path + "' is all that is rendered");
+    return static_cast<std::ptrdiff_t>(number);
 }
 
 Edit& Edit::set_color(const std::string& path, const Vec3& color) {
@@ -169,7 +167,7 @@ Edit& Edit::add_top(const std::string& object, const Matrix& matrix) {
     if (scene.find(object) == nullptr)
         throw Error(Status::usage, {Diagnostic{.message = "the scene has no object '" + object + "'",
                                                .suggestion = did_you_mean_object(scene, object)}});
-    if (std::ranges::find(rendered, object) != rendered.end())
+    if (position(rendered, object) < rendered.size())
         throw Error(Status::usage, {Diagnostic{.message = "'" + object + "' is rendered already",
                                                .suggestion = "set_matrix() gives it another place"}});
     if (&rendered == &impl_->source.objects) rendered.push_back(object);

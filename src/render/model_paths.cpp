@@ -71,7 +71,8 @@ std::vector<ChildInfo> Model::children(const std::string& path) const {
         const Object& child = scene.objects[object];
         found.push_back({std::move(way), std::move(name), name_of(child), type_name(child), op});
     };
-    if (path == "/") {
+    const std::string above = normal_path(path);
+    if (above == "/") {
         const std::vector<std::string>& objects = impl_->source.objects;
         for (const std::string& root : objects.empty() ? names.top_objects() : objects) {
             const std::string way = normal_path(root);
@@ -86,7 +87,7 @@ std::vector<ChildInfo> Model::children(const std::string& path) const {
     for (std::uint32_t node = 0; node < joining.size(); ++node) {
         const std::uint32_t child = names.child(parent, node);
         const std::string& name = names.member_name(parent, node);
-        if (child < Names::left_out) add(normal_path(path) + "/" + name, name, child, joining[node]);
+        if (child < Names::left_out) add(above + "/" + name, name, child, joining[node]);
     }
     return found;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 #include <span>
+#include <string_view>
 #include <unordered_set>
 #include <utility>
 
@@ -29,10 +30,10 @@ ObjectPath follow_to_member(const Scene& scene, const Names& names, const std::s
     return found;
 }
 
-/// The number of an object in a list of objects that are rendered, or the size of the list.
-std::size_t position(const std::vector<std::string>& rendered, const std::string& path) {
-    const auto is_it = [whole = normal_path(path)](const std::string& root) { return normal_path(root) == whole; };
-    return static_cast<std::size_t>(std::ranges::find_if(rendered, is_it) - rendered.begin());
+/// A path without the '/' at its ends.
+std::string_view bare(std::string_view path) {
+    path.remove_prefix(std::min(path.find_first_not_of('/'), path.size()));
+    return path.substr(0, path.find_last_not_of('/') + 1);
 }
 
 Tree& tree_of(Scene& scene, std::uint32_t object) { return std::get<Combination>(scene.objects[object]).tree; }
@@ -155,6 +156,10 @@ void remove_leaf(Tree& tree, std::uint32_t leaf) {
 }
 
 }  // namespace
+
+std::size_t position(const std::vector<std::string>& rendered, const std::string& path) {
+    return static_cast<std::size_t>(std::ranges::find(rendered, bare(path), bare) - rendered.begin());
+}
 
 void add_top(Scene& scene, const std::string& object, const Matrix& matrix) {
     if (scene.top.empty()) scene.top = top_objects(scene);
@@ -288,7 +293,7 @@ void erase_object(Scene& scene, const std::vector<std::string>& rendered, const 
     }
     for (const std::vector<std::string>* roots : {&rendered, &std::as_const(scene.top)})
         for (const std::string& root : *roots)
-            if (normal_path(root) != normal_path(path))
+            if (bare(root) != bare(path))
                 for (const ObjectPath::Step& step : find_path(scene, *names, root).steps)
                     use(step.object, "the list of what is rendered");
     if (!users.empty())

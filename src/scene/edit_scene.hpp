@@ -11,6 +11,8 @@ namespace csgrt {
 // All functions throw Error (usage), and change nothing, if a path leads to no object or to an object of the wrong
 // kind.
 
+/// The number of a path in a list of paths, or the size of the list. A '/' at the front or the end has no effect.
+std::size_t position(const std::vector<std::string>& rendered, const std::string& path);
 /// Makes an object a top object, or gives a top object another matrix. The scene must have the object.
 void add_top(Scene& scene, const std::string& object, const Matrix& matrix);
 /// Removes an object from the top objects, if it is one.

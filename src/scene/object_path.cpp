@@ -149,8 +149,9 @@ ObjectPath find_path(const Scene& scene, const Names& names, const std::string& 
     if (const std::uint32_t object = names.find(text); object != Names::none) {
         path.steps.push_back({object, 0});
     } else if (text.find_first_not_of('/') == std::string::npos || text.find('/') == std::string::npos) {
-        path.fault = "the scene has no object '" + text + "'";
-        path.suggestion = did_you_mean_object(scene, text);
+        const bool is_all = text.starts_with('/');
+        path.fault = is_all ? "'" + text + "' is all, not one object" : "the scene has no object '" + text + "'";
+        path.suggestion = is_all ? "give the path of one" : did_you_mean_object(scene, text);
     } else {
         path = Follower(scene, names, text).follow();
     }

@@ -147,6 +147,10 @@ def test_a_path_tells_where_it_is_and_what_is_below_it(operators):
     assert operators.regions[path].path == below[[child.path for child in below].index(path)].path
     with pytest.raises(csgrt.Error, match="no member 'nothing'"):
         operators["/operators/nothing"].matrix  # noqa: B018
+    with pytest.raises(ValueError, match=r"the shape \(4, 4\), not \(3, 3\)"):
+        operators[path].move(np.eye(3))
+    with pytest.raises(csgrt.Error, match="'/' is all, not one object"):
+        operators["/"].matrix = np.eye(4)
     operators[path].move(csgrt.rotate(z=90))
     operators["/"].move(csgrt.translate(z=5))
     operators["/"].state = "hidden"

@@ -281,7 +281,7 @@ TEST_CASE("a path tells its matrix, its placement, its region and what is below 
           "/mixed/hull.r hull.r region 2\n/mixed/hub.r hub.r region 4\n");
     CHECK(refusal([&] { static_cast<void>(model.matrix_of("/all/weel")); }).find("no member 'weel'") !=
           std::string::npos);
-    CHECK(refusal([&] { static_cast<void>(model.children("")); }).starts_with("the scene has no object ''"));
+    CHECK(refusal([&] { static_cast<void>(model.children("")); }) == "the path '' names nothing");
     CHECK(refusal([&] { static_cast<void>(model.region("")); }) == "the path '' names nothing");
 }
 
@@ -349,7 +349,11 @@ TEST_CASE("top objects have places, with the bits of members", "[promise:edits]"
     CHECK(refusal([&] { static_cast<void>(json_scene_text(wrong)); }).find("other places") != std::string::npos);
     wrong.top.push_back("all");
     CHECK(refusal([&] { Model{wrong}; }).find("'all' is rendered in two places") != std::string::npos);
+    wrong.top = {"/all"};
+    wrong.top_matrices = {turn};
+    CHECK(refusal([&] { Model{wrong}; }).find("the top object '/all' is a path") != std::string::npos);
     wrong.top = {"all", "/all/wheel"};
+    wrong.top_matrices.push_back(identity);
     CHECK(refusal([&] { Model{wrong}; }).find("the top object '/all/wheel' is a path") != std::string::npos);
     wrong.top = {"all"};
     wrong.top_matrices = {Matrix{}};
@@ -455,6 +459,7 @@ TEST_CASE("what cannot be is refused with the place, and changes nothing", "[pro
     CHECK(refusal([&] { edit.replace("wheel", Ell{}); }) == "'wheel' is a combination: it has no numbers of its own");
     CHECK(refusal([&] { edit.add(Solid{"ball", Ell{}, {}}); }).starts_with("the scene has an object 'ball' already"));
     CHECK(refusal([&] { edit.add("ball", Operator::union_, "box"); }) == "'ball' is a solid: it has no legs");
+    CHECK(refusal([&] { edit.remove("/"); }) == "'/' is all, not one object\n  give the path of one");
     CHECK(refusal([&] { edit.remove("/all"); }) == "'/all' is all that is rendered");
     CHECK(refusal([&] {
               static_cast<void>(Edit(model).set_color("/all/x", {}).commit());

@@ -111,7 +111,7 @@ private:
                 continue;
             }
             roots.push_back(path.object());
-            if (path.steps.size() > 1 && named.empty() && !scene_.top_matrices.empty())
+            if (named.empty() && !scene_.top_matrices.empty() && names_.find(name) == Names::none)
                 add({}, "the top object '" + name + "' is a path, and there are places",
                     "give each top object by its name, or leave Scene::top_matrices empty");
             for (std::size_t i = 1; i < path.steps.size(); ++i)

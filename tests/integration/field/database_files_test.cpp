@@ -294,7 +294,7 @@ TEST_CASE("files: an object named by a path has the place and the attributes tha
     fault("air.g/air/s", "'air.g' has no member 'air' (in the path 'air.g/air/s')", "did you mean 'air.r'?");
     fault("g/elephant", "'g' has no member 'elephant' (in the path 'g/elephant')", "its members are r, r");
     fault("g/r/s/x", "'s' is a solid; it has no member 'x' (in the path 'g/r/s/x')", "");
-    fault("/", "the scene has no object '/'", "");
+    fault("/", "'/' is all, not one object", "give the path of one");
     CHECK(validate(scene, {"top/gone"}).at(0).message ==
           "'top' uses 'gone', which does not exist (in the path 'top/gone')");
     CHECK(object_at(scene, "top/g/r/t") == scene.find("t"));
