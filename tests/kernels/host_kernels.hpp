@@ -228,10 +228,11 @@ inline HostRun run_kernels(const CompiledScene& scene, const PreparedFrame& prep
     if (!deep.empty())
         sweep_rays(scene, frame, rays.data(), listed, deep, run.offsets, run.boundaries, run.nodes, run.tallies, 1000);
     if (rays.empty()) {
+        const std::vector<MaterialRecord> materials = scene.materials;
         each([&] {
             shade(&frame, scene.solids.data(), scene.reals.data(), scene.planes.data(), scene.words.data(),
-                  scene.inner_nodes.data(), scene.materials.data(), prepared.lights.data(), scene.display.data(),
-                  listed, run.offsets.data(), run.boundaries.data(), run.nodes.data(), run.tallies.data(), nullptr,
+                  scene.inner_nodes.data(), materials.data(), prepared.lights.data(), scene.display.data(), listed,
+                  run.offsets.data(), run.boundaries.data(), run.nodes.data(), run.tallies.data(), nullptr,
                   values.data());
         });
         run.picture = picture_of(frame, numbers, values, 13);
@@ -254,11 +255,12 @@ inline std::uint32_t run_first_hits(const CompiledScene& scene, const PreparedFr
     std::erase_if(numbers, [&](u32 number) { return !tiles.costs[number / (TILE * TILE)]; });
     frame.ray_count = static_cast<u32>(numbers.size());
     std::vector<float> values(10 * numbers.size());
+    const std::vector<MaterialRecord> materials = scene.materials;
     for (global_id = 0; global_id < frame.ray_count; ++global_id)
         first_hits(&frame, scene.solids.data(), scene.reals.data(), scene.planes.data(), scene.words.data(),
                    scene.inner_nodes.data(), scene.nodes.data(), scene.starts.data(), scene.trees.data(),
-                   scene.materials.data(), prepared.lights.data(), scene.display.data(), tiles.lists.data(),
-                   numbers.data(), &report, overflown.data(), values.data());
+                   materials.data(), prepared.lights.data(), scene.display.data(), tiles.lists.data(), numbers.data(),
+                   &report, overflown.data(), values.data());
     picture = picture_of(frame, numbers, values, 10);
     return report.overflows;
 }
