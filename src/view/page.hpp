@@ -1,4 +1,4 @@
-// The text of page.html, which the build embeds.
+// The page of src/view/page/, which the build joins and embeds.
 #pragma once
 
 #include <string>

@@ -30,8 +30,8 @@ struct Client {
     std::function<void(std::string_view)> send_more;
 };
 
-/// The session answers the requests of pages. Any thread may call any function. page.html says which members a request
-/// and an answer have.
+/// The session answers the requests of pages. Any thread may call any function. src/view/page/ says which members a
+/// request and an answer have.
 class ViewSession {
 public:
     /// Throws as Renderer does.

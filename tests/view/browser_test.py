@@ -72,6 +72,7 @@ class Browser(unittest.TestCase):
                               capture_output=True, check=True).stdout
 
     def assert_as_the_command_draws(self):
+        self.page.js("document.getElementById('command').textContent = ''")
         self.page.press("get-command")
         self.page.wait(lambda: "--azimuth" in self.page.text("command"))
         self.shell(self.page.text("command"))
@@ -258,7 +259,7 @@ class Browser(unittest.TestCase):
             """The place in the pane of a point of the plane."""
             return page.js("""
                 const box = pane(), plane = view.clip[0], {right, up} = plane_axes(plane), [u, v] = slice.place;
-                const from = minus([30, ...arguments], plane_middle(plane));
+                const from = minus([30, ...arguments], plane_foot(plane, bounds()));
                 return [box.width / 2 + (dot(from, right) - u) / slice.mm,
                         box.height / 2 - (dot(from, up) - v) / slice.mm]""", y, z)
 

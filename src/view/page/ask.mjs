@@ -1,0 +1,177 @@
+// Ask: what is selected, what stands at a pixel, and what lies behind it.
+import {size} from "./camera.mjs";
+import {by, el, is_focused} from "./dom.mjs";
+import {hook, keep, loop, when_painted} from "./frames.mjs";
+import {last_leg} from "./looks.mjs";
+import {load_model} from "./main.mjs";
+import {pointers} from "./mouse.mjs";
+import {ask, attempt} from "./net.mjs";
+import {clamp, css, dot, hex, minus, number, numbers, union_of} from "./numbers.mjs";
+import {draw_overlay} from "./overlay.mjs";
+import {open_panel} from "./panels.mjs";
+import {color_of, ended, hold, model, path_of, range, regions, selected, view} from "./state.mjs";
+import {draw_tree, reveal, state_word} from "./tree.mjs";
+
+export let answer = null, previous = null;  // the last answer, and the point that was clicked before
+export let selected_box = null;
+export function select(path) {
+  hold({selected: path});
+  if (path !== null) reveal(path);
+  draw_tree();
+  draw_selected();
+  for (const part of by("beam").querySelectorAll("button")) part.ariaPressed = String(part.dataset.path === selected);
+  draw_overlay();
+}
+const facts = (list, pairs) => by(list).replaceChildren(...pairs.flatMap(([name, value]) =>
+  [el("dt", {textContent: name}), el("dd", {textContent: value})]));
+export function draw_selected() {
+  by("selected").hidden = selected === null;
+  by("hint").hidden = selected !== null || answer !== null;
+  if (selected === null) return;
+  const [low, high] = range(selected), region = regions.sorted[low];
+  selected_box = union_of(regions.sorted.slice(low, high));
+  by("selected-swatch").style.background = css(regions.colors[low]);
+  by("selected-path").textContent = selected;
+  if (!is_focused(by("selected-color"))) by("selected-color").value = hex(regions.colors[low]);
+  facts("selected-facts", [
+    ...region.path !== selected ? [["regions", high - low]] : [["region id", region.region_id],
+      ["material", region.material_id], ["air", region.air], ["los", region.los]],
+    ["state", state_word([low, high])],
+    ["box", selected_box ? minus(selected_box.high, selected_box.low).map(v => number(v, 5)).join(" x ") : "open"]]);
+}
+/// Asks what stands at a place of the picture: the server is told whole pixels of the full one.
+export async function ask_pixel(x, y, brief) {
+  const {width, height, css_width, css_height} = size;
+  const made = await ask("pick", {view, width, height, brief,
+    x: clamp(Math.floor(x * width / css_width), 0, width - 1),
+    y: clamp(Math.floor(y * height / css_height), 0, height - 1)});
+  if (made.generation === model.generation) return made;
+  await load_model();  // the numbers of regions are those of a file that has changed
+  if (made.generation !== model.generation) throw new Error("The model has changed: ask again.");
+  return made;
+}
+/// Asks and shows the answer. Returns the point that was hit, or null.
+export async function pick(x, y) {
+  const begun = performance.now(), made = await attempt("pick", () => ask_pixel(x, y, false));
+  if (!made) return null;
+  open_panel("answer", true);
+  previous = answer?.point ?? previous;
+  answer = made;
+  select(made.region === null ? null : path_of(made.region));
+  draw_answer();
+  when_painted(() => keep(hook.answers, performance.now() - begun));
+  return made.point ?? null;
+}
+export function draw_answer() {
+  by("hit").hidden = !answer;
+  draw_overlay();
+  if (!answer) return;
+  const {partitions: parts, overlaps, point, solid} = answer;
+  by("hit-title").textContent = point ? `Last click: ${path_of(answer.region)}` : "Last click";
+  facts("hit-facts", !point ? [["hit", "nothing"]] : [
+    ["solid", solid ? `${solid.name} (${solid.type})` : "a cut"], ["point", numbers(point)],
+    ["normal", numbers(answer.normal, 5)], ["distance", `${number(answer.t)} from the ray's start`],
+    ["ray to normal", `${number(angle_of(answer), 3)} degrees: thicknesses below are along the ray`]]);
+  const apart = point && previous ? minus(point, previous) : null;
+  by("measure").hidden = !apart;
+  if (apart) by("measure").textContent = `From the point clicked before: ${number(Math.hypot(...apart))} mm ` +
+    `(dx ${number(apart[0])}, dy ${number(apart[1])}, dz ${number(apart[2])})`;
+  draw_beam(parts, overlaps, point ? answer.t : null);
+  by("ends").hidden = !parts.length;
+  by("end-rows").replaceChildren(...end_rows(parts, overlaps));
+  by("shoot").textContent = answer.shoot;
+}
+const angle_of = ({normal, ray}) => Math.acos(clamp(-dot(normal, ray.direction), -1, 1)) * 180 / Math.PI;
+const thickness = part => part.in === null || part.out === null ? null : part.out - part.in;
+/// Draws the bar, to scale from the first finite end to the last. Room beyond shows that an open part goes on.
+function draw_beam(parts, overlaps, hit) {
+  const ends = parts.flatMap(p => [p.in, p.out]).filter(t => t !== null);
+  const low = ends.length ? Math.min(...ends) : -1, high = ends.length ? Math.max(...ends) : 1;
+  const room = parts.some(p => thickness(p) === null) ? 6 : 0, percents = (100 - 2 * room) / (high - low || 1);
+  const place = (t, open) => t === null ? open : room + (t - low) * percents;
+  const stretch = (element, from, to) => {
+    const left = place(from, 0), width = place(to, 100) - left;
+    element.style.left = `min(${left}%, 100% - 3px)`;
+    element.style.width = width + "%";
+    return width;
+  };
+  const marks = parts.map(p => {
+    const path = path_of(p.region), thick = number(thickness(p));
+    const part = el("button", {title: `${path}\n${thick} mm`, ariaPressed: String(path === selected),
+      ariaLabel: `${path}, ${thick} thick, from ${number(p.in)} to ${number(p.out)}`, onclick: () => select(path)});
+    part.dataset.path = path;
+    part.style.background = css(color_of(p.region));
+    part.classList.toggle("open-in", p.in === null);
+    part.classList.toggle("open-out", p.out === null);
+    part.classList.toggle("off", regions.states[regions.rank[p.region]] === 2);
+    if (stretch(part, p.in, p.out) > 11) part.textContent = number(thickness(p), 4);
+    return part;
+  });
+  for (const overlap of overlaps) {
+    marks.push(el("i", {title: `overlap: ${overlap.regions.map(path_of).join(", ")}`}));
+    stretch(marks.at(-1), overlap.in, overlap.out);
+  }
+  if (hit !== null && hit >= low && hit <= high) {
+    marks.push(el("u"));
+    marks.at(-1).style.left = place(hit) + "%";
+  }
+  by("beam").replaceChildren(...marks);
+  by("beam-low").textContent = parts.length ? number(low) : "";
+  by("beam-high").textContent = parts.length ? `${number(high)} mm` : "nothing along this ray";
+}
+/// Rows: for each part its region and thickness, then a row for each end, and between the parts the gaps. An overlap
+/// stands in red before the part in which it begins.
+function end_rows(parts, overlaps) {
+  const made = [], left = [...overlaps], add = (className, ...cells) => made.push(el("tr", {className}, ...cells));
+  const cell = (text, className = "", colSpan = 1) => el("td", {textContent: text, className, colSpan});
+  const overlaps_before = end => {
+    while (left.length && (left[0].in ?? -Infinity) < end) {
+      const overlap = left.shift(), paths = overlap.regions.map(path_of), names = paths.map(last_leg).join(", ");
+      add("red overlap", cell(`overlap from ${number(overlap.in)} to ${number(overlap.out)}: ${names}`, "", 4));
+      made.at(-1).title = paths.join("\n");
+    }
+  };
+  const end = (word, t, solid) =>
+    add(word, cell(word), cell(number(t), "number"), cell(solid?.name ?? "-"), cell(solid?.type ?? "-"));
+  parts.forEach((p, i) => {
+    const gap = i && p.in !== null && parts[i - 1].out !== null ? p.in - parts[i - 1].out : 0, path = path_of(p.region);
+    if (gap > 0) add("dim gap", cell("gap", "", 3), cell(number(gap, 6) + " mm", "number"));
+    overlaps_before(p.out ?? Infinity);
+    const swatch = el("span", {className: "swatch"}), thick = thickness(p);
+    swatch.style.background = css(color_of(p.region));
+    const name = el("button", {title: path, onclick: () => select(path)}, swatch, last_leg(path));
+    add("part", el("td", {colSpan: 3}, name), cell(thick === null ? "open" : number(thick, 6) + " mm", "number"));
+    end("in", p.in, p.in_solid);
+    end("out", p.out, p.out_solid);
+  });
+  overlaps_before(Infinity);
+  return made;
+}
+/// Takes the answer away, and with the selection what is marked by it.
+export function forget_answer() {
+  drop_answer();
+  select(null);
+  draw_answer();
+}
+/// An answer has the numbers of the old model's regions: it goes with the model.
+export function drop_answer() {
+  answer = previous = null;
+}
+/// Copies by the selection: navigator.clipboard is not there in a notebook's frame.
+export function copy(source, button) {
+  getSelection().selectAllChildren(by(source));
+  button.textContent = document.execCommand("copy") ? "Copied" : "Selected";
+  setTimeout(() => { button.textContent = "Copy"; }, 1500);
+}
+export const hover = {place: null, busy: false};
+/// Names the region under the mouse: one question at a time, for the newest place, and none while something moves.
+export async function ask_hover() {
+  if (hover.busy || !hover.place || pointers.size || loop.moving || ended) return;
+  hover.busy = true;
+  const place = hover.place, made = await attempt("hover", () => ask_pixel(...place, true));
+  if (made && hover.place) by("hover").textContent = made.region === null ? "" : path_of(made.region);
+  setTimeout(() => {
+    hover.busy = false;
+    if (hover.place !== place) ask_hover();
+  }, 60);
+}

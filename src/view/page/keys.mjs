@@ -1,0 +1,91 @@
+// Keys, and the cross that they move.
+import {act} from "./acts.mjs";
+import {answer, ask_hover, ask_pixel, forget_answer, hover, pick} from "./ask.mjs";
+import {size} from "./camera.mjs";
+import {by} from "./dom.mjs";
+import {changed, set_camera} from "./frames.mjs";
+import {center_at, pan, turn, zoom} from "./mouse.mjs";
+import {attempt} from "./net.mjs";
+import {clamp} from "./numbers.mjs";
+import {draw_overlay} from "./overlay.mjs";
+import {open_panel} from "./panels.mjs";
+import {selected, view} from "./state.mjs";
+import {list_rows} from "./tree.mjs";
+
+export const cross_hair = {place: null};
+export const aim_place = () => cross_hair.place ?? [size.css_width / 2, size.css_height / 2];
+function move_cross(dx, dy) {
+  const [x, y] = aim_place();
+  hover.place = cross_hair.place = [clamp(x + dx, 0, size.css_width - 1), clamp(y + dy, 0, size.css_height - 1)];
+  draw_overlay();
+  ask_hover();
+}
+const look_from = (azimuth, elevation) => event => set_camera({azimuth, elevation}, event);
+const moving = move => (event, key) => {
+  move(key);
+  changed(event, true);
+};
+const toggle_perspective = event => set_camera({perspective: view.camera.perspective ? 0 : 30}, event);
+export const with_selected = run => event => selected !== null && run(selected, event);
+export const ARROWS = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1],
+                a: [-1, 0], d: [1, 0], w: [0, -1], s: [0, 1]};
+/// Rows of the help: the keys, what the help says, what they do.
+export const KEYS = [
+  [["1"], "front: azimuth 0, elevation 0", look_from(0, 0)],
+  [["3"], "right, as in BRL-CAD: azimuth 270, elevation 0", look_from(270, 0)],
+  [["7"], "top: azimuth 270, elevation 90", look_from(270, 90)],
+  [["9"], "iso: azimuth 35, elevation 25", look_from(35, 25)],
+  [["5"], "parallel or perspective (30 degrees)", toggle_perspective],
+  [["f", "Enter"], "fit what is shown", event => act.fit_shown(event)],
+  [["ArrowLeft", "ArrowRight", "ArrowUp", "ArrowDown"], "turn", moving(key => {
+    const [x, y] = ARROWS[key], {azimuth, elevation, center} = view.camera;
+    turn(azimuth - 5 * x, elevation + 5 * y, center);
+  })],
+  [["Shift+ArrowLeft", "Shift+ArrowRight", "Shift+ArrowUp", "Shift+ArrowDown"], "pan", moving(key =>
+    pan(...ARROWS[key].map(v => 0.05 * v * size.css_height)))],
+  [["+", "="], "zoom in, at the cross", moving(() => zoom(0.8, ...aim_place()))],
+  [["-"], "zoom out, at the cross", moving(() => zoom(1.25, ...aim_place()))],
+  [["a", "d", "w", "s"], "move the cross (with Shift: by a pixel)", (event, key) =>
+    move_cross(...ARROWS[key].map(v => v * (event.shiftKey ? 1 : 16)))],
+  [["p"], "ask at the cross, or in the middle", () => pick(...aim_place())],
+  [["c"], "the point at the cross becomes the centre", async event =>
+    center_at((await attempt("pick", () => ask_pixel(...aim_place(), true)))?.point, event)],
+  [["h"], "hide what is selected", with_selected((path, event) => act.state(path, "hidden", event))],
+  [["g"], "ghost what is selected", with_selected((path, event) => act.state(path, "ghost", event))],
+  [["i"], "isolate what is selected", with_selected(act.isolate)],
+  [["u"], "show all", act.show_all],
+  [["/"], "search the parts", begin_search],
+  [["?"], "this list", () => by("help").showModal()],
+  [["Escape"], "forget the answer and the selection, then close the panels", escape_all],
+];
+export const MOUSE = [["drag", "turn about the point under the mouse"], ["Shift+drag, middle drag", "pan"],
+  ["wheel", "zoom to the mouse"], ["click", "ask what is there and behind it"],
+  ["double click", "the point becomes the centre"], ["two fingers", "pan and zoom"],
+  ["in the tree", "arrows move, Space changes the state, Enter or a double click fits"],
+  ["drop a file", "open a saved view"]];
+export const run_of = new Map(KEYS.flatMap(([keys, , run]) => keys.map(key => [key, run])));
+document.addEventListener("keydown", event => {
+  const tag = event.target.tagName;
+  if (event.ctrlKey || event.metaKey || event.altKey || document.querySelector("dialog[open]") || !view) return;
+  if (event.key !== "Escape" && /^(INPUT|SELECT)$/.test(tag) || tag === "BUTTON" && event.key === "Enter") return;
+  const key = event.key.length === 1 ? event.key.toLowerCase() : event.key;
+  const run = run_of.get(event.shiftKey && key.startsWith("Arrow") ? "Shift+" + key : key);
+  if (!run) return;
+  event.preventDefault();
+  run(event, key);
+});
+function escape_all() {
+  if (answer || selected !== null || cross_hair.place) {
+    cross_hair.place = null;
+    forget_answer();
+  } else if (by("search").value) {
+    by("search").value = "";
+    list_rows();
+  } else {
+    for (const panel of ["cut", "warnings", "save"]) open_panel(panel, false);
+  }
+}
+function begin_search() {
+  open_panel("parts", true);
+  by("search").focus();
+}

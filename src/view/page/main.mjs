@@ -1,0 +1,126 @@
+// The model as the server has it, and the start.
+import {act} from "./acts.mjs";
+import {checked, read_address} from "./address.mjs";
+import {copy, draw_answer, draw_selected, drop_answer} from "./ask.mjs";
+import {size} from "./camera.mjs";
+import {add_plane, build_planes} from "./cut.mjs";
+import {by, el, notes, say} from "./dom.mjs";
+import {MOST_SIDE, canvas, changed, loop, pump} from "./frames.mjs";
+import {KEYS, MOUSE, run_of, with_selected} from "./keys.mjs";
+import {apply_looks, region_table} from "./looks.mjs";
+import {ask, attempt} from "./net.mjs";
+import {clamp, from_hex} from "./numbers.mjs";
+import {draw_overlay, overlay} from "./overlay.mjs";
+import {SECTIONS, draw_warnings, open_panel} from "./panels.mjs";
+import {open_view, save} from "./save.mjs";
+import {open_slice, refit_slice, slice_changed} from "./slice.mjs";
+import {ended, hold, model, range, regions, selected, view} from "./state.mjs";
+import {build_tree, draw_tree, list_rows, tree_key} from "./tree.mjs";
+
+export async function load_model() {
+  const made = await attempt("model", () => ask("model", {}));
+  if (!made || made.generation === model?.generation) return;
+  const is_first = !model;
+  hold({model: made, regions: region_table(made.regions)});
+  document.title = `${model.name} - csgrt`;
+  by("name").textContent = by("model").textContent = model.name;
+  by("name").title = by("model").title = model.title;
+  by("device").textContent = model.device;
+  by("save-exr").hidden = !model.exr;
+  say("file", model.error);
+  if (is_first) {
+    hold({view: checked(model.view)});
+    read_address();
+  }
+  loop.failed = -1;
+  apply_looks(regions, view.looks);
+  changed();
+  if (selected !== null && range(selected)[0] === range(selected)[1]) hold({selected: null});
+  drop_answer();
+  build_tree();
+  build_planes();
+  draw_selected();
+  draw_answer();
+  draw_warnings();
+}
+/// Looks once a second whether the server is there and its file has changed.
+async function look_for_changes() {
+  const status = document.hidden ? null : await attempt("status", () => ask("status", {}));
+  if (status) {
+    if (notes.has("server")) loop.failed = -1;
+    say("server", "");
+    say("file", status.error);
+    by("device").textContent = status.device;
+    if (status.generation !== model?.generation) await load_model();
+    pump();
+  }
+  if (!ended) setTimeout(look_for_changes, 1000);
+}
+async function end_csgrt() {
+  by("ask-end").close();
+  if (!await attempt("end", () => ask("end", {}))) return;
+  hold({ended: true});
+  loop.job?.abort.abort();
+  by("end-page").hidden = false;
+}
+
+function watch_size() {
+  const watch = new ResizeObserver(([entry]) => {
+    const box = entry.contentRect, exact = entry.devicePixelContentBoxSize?.[0];
+    const side = (given, length) => clamp(given ?? Math.round(length * devicePixelRatio), 1, MOST_SIDE);
+    Object.assign(size, {width: side(exact?.inlineSize, box.width), height: side(exact?.blockSize, box.height),
+                         css_width: box.width || 1, css_height: box.height || 1});
+    overlay.setAttribute("viewBox", `0 0 ${size.css_width} ${size.css_height}`);
+    if (loop.job && !loop.job.coarse) loop.job.abort.abort();
+    draw_overlay();
+    pump();
+  });
+  try { watch.observe(canvas, {box: "device-pixel-content-box"}); } catch { watch.observe(canvas); }
+  new ResizeObserver(slice_changed).observe(by("slice"));
+  new ResizeObserver(draw_tree).observe(by("tree"));
+}
+function connect() {
+  const on = (id, run, name = "click") => by(id).addEventListener(name, run);
+  for (const name of ["parts", ...SECTIONS]) on("toggle-" + name, () => open_panel(name));
+  for (const name of SECTIONS) on("close-" + name, () => open_panel(name, false));
+  for (const [id, key] of [["view-front", "1"], ["view-right", "3"], ["view-top", "7"], ["view-iso", "9"], ["fit", "f"],
+                           ["perspective", "5"], ["help-button", "?"], ["show-all", "u"]]) on(id, run_of.get(key));
+  for (const [id, state] of [["hide", "hidden"], ["ghost", "ghost"], ["show", "shown"]])
+    on("selected-" + id, event => act.state(selected, state, event));
+  for (const [id, run] of Object.entries({
+    "selected-isolate": event => act.isolate(selected, event), "selected-fit": event => act.fit(selected, event),
+    "copy-shoot": event => copy("shoot", event.target), "copy-command": event => copy("command", event.target),
+    "save-png": save.png, "save-exr": save.exr, "save-view": save.view, "get-command": save.command,
+    "add-plane": add_plane, "slice-fit": refit_slice, "slice-close": () => open_slice(-1),
+    "close-help": () => by("help").close(), "end": () => by("ask-end").showModal(),
+    "end-no": () => by("ask-end").close(), "end-yes": end_csgrt})) on(id, run);
+  on("selected-own", with_selected(act.own_color));
+  on("selected-color", event => act.color(selected, from_hex(event.target.value), event), "input");
+  on("show", event => {
+    view.show = by("show").value;
+    changed(event);
+  }, "change");
+  on("search", list_rows, "input");
+  on("tree", draw_tree, "scroll");
+  on("tree", tree_key, "keydown");
+  on("open-view", event => {
+    open_view(event.target.files[0]);
+    event.target.value = "";
+  }, "change");
+  document.addEventListener("dragover", event => event.preventDefault());
+  document.addEventListener("drop", event => {
+    event.preventDefault();
+    open_view(event.dataTransfer.files[0]);
+  });
+  document.addEventListener("visibilitychange", pump);
+  window.addEventListener("hashchange", () => { if (model) read_address(); });
+  const line = (keys, does) => el("tr", {}, el("td", {}, ...keys), el("td", {textContent: does}));
+  const written = key => key.length === 1 ? key.toUpperCase() :
+    key.replace(/Arrow(\w+)/, (_, way) => ({Left: "\u2190", Right: "\u2192", Up: "\u2191", Down: "\u2193"})[way]);
+  by("key-list").replaceChildren(...MOUSE.map(([what, does]) => line([what], does)), ...KEYS.map(([keys, does]) =>
+    line(keys.flatMap(key => [el("kbd", {textContent: written(key)}), " "]), does)));
+}
+if (innerWidth <= 900) for (const name of ["parts", "answer"]) open_panel(name, false);
+connect();
+watch_size();
+load_model().then(look_for_changes);

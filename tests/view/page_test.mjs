@@ -1,0 +1,132 @@
+// The page's modules that know no browser, and rules that all of its modules keep: node --test page_test.mjs
+import assert from "node:assert/strict";
+import fs from "node:fs";
+import test from "node:test";
+
+const folder = new URL("../../src/view/page/", import.meta.url);
+const load = name => import(new URL(name + ".mjs", folder));
+const camera = await load("camera"), looks = await load("looks"), numbers = await load("numbers");
+const rates = await load("rates"), search = await load("search");
+
+/// Numbers between 0 and 1, the same in every run.
+function random_numbers(seed) {
+  let state = seed;
+  return () => (state = (state * 48271) % 2147483647) / 2147483647;
+}
+const near = (a, b, most, what) => a.forEach((v, i) => assert.ok(Math.abs(v - b[i]) <= most, `${what}: ${a}, ${b}`));
+const any_camera = random => ({azimuth: 360 * random(), elevation: 180 * random() - 90, view_size: 10 + 100 * random(),
+  perspective: random() < 0.5 ? 0 : 5 + 80 * random(), center: [random(), random(), random()]});
+
+test("a fitted box touches the picture's edges and crosses none, in windows of all shapes", () => {
+  const random = random_numbers(7);
+  for (let i = 0; i < 300; i++) {
+    Object.assign(camera.size, {css_width: 100 + 900 * random(), css_height: 100 + 900 * random()});
+    const low = [0, 0, 0].map(() => 200 * random() - 100), high = low.map(v => v + 1 + 300 * random());
+    const made = camera.fitted(any_camera(random), {low, high}), {css_width, css_height} = camera.size;
+    const places = numbers.corners({low, high}).map(p => camera.on_screen(made, p));
+    const ratio = Math.max(...places.map(([x, y]) =>
+      Math.max(Math.abs(x / css_width - 0.5), Math.abs(y / css_height - 0.5)) * 2));
+    assert.ok(ratio <= 1 && ratio > 0.8, `the farthest corner is at ${ratio} of the way to an edge`);
+  }
+});
+test("a turn keeps the pivot in its place, a zoom and a pan what is under the pointer", () => {
+  const random = random_numbers(11);
+  Object.assign(camera.size, {css_width: 640, css_height: 480});
+  for (let i = 0; i < 300; i++) {
+    const before = any_camera(random), x = 640 * random(), y = 480 * random(), z = before.view_size * (random() - 1);
+    const point = camera.under(before, x, y, z), seen = made => camera.on_screen(made, point);
+    near(seen(before), [x, y], 1e-6, "under");
+    near(seen(camera.turned(before, 720 * random() - 360, 60, point)), [x, y], 1e-6, "turned");
+    near(seen(camera.zoomed(before, 0.3 + random(), 1000, x, y, z)), [x, y], 1e-6, "zoomed");
+    near(seen(camera.panned(before, 13, -7, z)), [x + 13, y - 7], 1e-6, "panned");
+  }
+});
+
+const regions_of = paths => paths.map(path => ({path, state: "shown", color: [1, 1, 1]}));
+test("a path means all regions below it, and no path that only begins alike", () => {
+  const {paths} = looks.region_table(regions_of(["/a/b", "/a.r", "/a/b.c", "/a/b/c", "/a!", "/ab"]));
+  const below = path => paths.slice(...looks.range_of(paths, path)).sort();
+  assert.deepEqual(below("/a"), ["/a/b", "/a/b.c", "/a/b/c"]);
+  assert.deepEqual(below("/a/b.c"), ["/a/b.c"]);
+  assert.deepEqual(below("/none"), []);
+});
+test("looks that are kept short mean the same as all of them in turn", () => {
+  const random = random_numbers(3), one_of = list => list[Math.floor(random() * list.length)];
+  const paths = ["/a/b/1", "/a/b/2", "/a/c/1", "/d/1", "/d/2"], places = [...paths, "/a", "/a/b", "/a/c", "/d"];
+  for (let run = 0; run < 100; run++) {
+    const table = looks.region_table(regions_of(paths)), all = [];
+    let short = [];
+    for (let i = 0; i < 12; i++) {
+      const [member, value] = random() < 0.7 ? ["state", one_of(looks.STATES)] : ["color", [random(), 0, 0]];
+      all.push({path: one_of(places), [member]: value});
+      short = looks.with_look(table, short, all.at(-1).path, member, value);
+      const {states, colors} = table;
+      for (const list of [all, short]) {
+        looks.apply_looks(table, list);
+        assert.deepEqual([table.states, table.colors], [states, colors]);
+      }
+    }
+    assert.ok(short.length <= places.length);
+    assert.deepEqual(looks.without_colors(short, "/a").filter(({path, color}) => color && /^.a/.test(path)), []);
+  }
+});
+
+test("the search gives the shortest path whose last leg ends the match", () => {
+  const paths = ["/car/wheels/left", "/car/wheels/right", "/car/wheel.r", "/Wheel"];
+  assert.deepEqual(search.found_in(paths, "wheel"),
+                   [["/car/wheels", false], ["/car/wheel.r", true], ["/Wheel", true]]
+                     .map(([path, leaf]) => ({path, leaf})));
+  assert.deepEqual(search.found_in(paths, "car/wheels/l"), [{path: "/car/wheels/left", leaf: true}]);
+});
+
+test("coarse frames become coarser when they are slow, and finer when a finer frame would be quick", () => {
+  const pace = {divisor: 4, wall: 0, wall_of: 0};
+  rates.adapt(pace, 4, 80);
+  assert.equal(pace.divisor, 8);
+  for (let i = 0; i < 9; i++) rates.adapt(pace, pace.divisor, 4 + 16 / pace.divisor ** 2);
+  assert.equal(pace.divisor, 1);
+  rates.adapt(pace, 1, 100);
+  assert.equal(pace.divisor, 2);
+});
+test("pixels come compressed on a slow link, and raw again on a quick one", () => {
+  const link = {rates: [], deflate: false}, full = {coarse: false, samples: 1};
+  for (let i = 0; i < 3; i++) rates.note_rate(link, 6e5, 1000);
+  assert.deepEqual([1, 8].map(number => rates.encoding_of(link, full, number)), ["deflate", "raw"]);
+  rates.note_rate(link, 1000, 1000);  // too small to tell
+  rates.note_rate(link, 6e6, 10);
+  assert.equal(rates.encoding_of(link, full, 1), "raw");
+});
+
+const modules = new Map(fs.readdirSync(folder).filter(name => name.endsWith(".mjs"))
+  .map(name => [name, fs.readFileSync(new URL(name, folder), "utf8")]));
+const without_texts = text => text.replace(/\\./g, "").replace(/"[^"\n]*"/g, '""').replace(/\/\/.*/g, "");
+test("every module imports the names that it uses, and no others", () => {
+  const exported = new Map();
+  for (const [name, text] of modules)
+    for (const [, line] of text.matchAll(/^export (?:async )?(?:const|let|function) (.*)/gm))
+      for (const [, found] of ` ${line.startsWith("{") ? "" : line}`.matchAll(/(?:^ |, )(\w+)(?= = |\()/g))
+        exported.set(found, name);
+  for (const [name, text] of modules) {
+    const imported = [...text.matchAll(/^import \{([^}]*)\} from "\.\/([^"]*)";/gm)]
+      .flatMap(([, names, from]) => names.split(/,\s*/).map(found => [found.trim(), from]));
+    const body = without_texts(text.replace(/^import \{[^}]*\} from .*;/gm, ""));
+    for (const [found, from] of imported) {
+      assert.equal(exported.get(found), from, `${name} imports ${found} from ${from}`);
+      assert.match(body, new RegExp(`\\b${found}\\b`), `${name} imports ${found} and does not use it`);
+      assert.doesNotMatch(body, new RegExp(`^\\s*${found} =[^=]`, "m"), `${name} changes the imported ${found}`);
+    }
+    const known = new Set(imported.map(([found]) => found));
+    const has_own = found => new RegExp(`\\b${found}(, \\w+)* =|[(,] ?${found}[,)]`).test(body);
+    for (const [, found] of body.matchAll(/(?<![.\w"])(\w+)\(/g))
+      assert.ok(!exported.has(found) || exported.get(found) === name || known.has(found) || has_own(found),
+                `${name} calls ${found} and does not import it`);
+  }
+});
+test("the page names every module, and no line has three statements", () => {
+  const page = fs.readFileSync(new URL("index.html", folder), "utf8");
+  const named = [...page.matchAll(/<script src="([^"]*)">/g)].map(([, name]) => name);
+  assert.deepEqual(named.sort(), [...modules.keys()].sort());
+  for (const [name, text] of modules)
+    without_texts(text).replace(/for \([^)]*\)/g, "").split("\n").forEach((line, i) =>
+      assert.ok(line.split(";").filter(part => /\w/.test(part)).length < 3, `${name}:${i + 1}: ${line}`));
+});
