@@ -51,7 +51,8 @@ class Page:
         self.driver.get("about:blank")  # else an address that differs after # alone would not load
         self.driver.get(address)
         self.wait(lambda: self.js("return Boolean(window.csgrt?.view)"))
-        self.js("csgrt.samples = arguments[0]", samples)  # one ray a pixel: as in a command's picture
+        # One ray a pixel: as in a command's picture. The page may have taken more by now.
+        self.js("csgrt.samples = arguments[0]; changed()", samples)
         return self.idle()
 
     def js(self, text, *arguments):
@@ -88,6 +89,15 @@ class Page:
             chain = ActionChains(self.driver)
             (chain.key_down(Keys.SHIFT).send_keys(key[1]).key_up(Keys.SHIFT) if isinstance(key, tuple)
              else chain.send_keys(key)).perform()
+        return self.idle()
+
+    def chord(self, *keys):
+        chain = ActionChains(self.driver)
+        for key in keys:
+            chain.key_down(key)
+        for key in reversed(keys):
+            chain.key_up(key)
+        chain.perform()
         return self.idle()
 
     def view(self):

@@ -6,7 +6,8 @@ import test from "node:test";
 const folder = new URL("../../src/view/page/", import.meta.url);
 const load = name => import(new URL(name + ".mjs", folder));
 const camera = await load("camera"), looks = await load("looks"), numbers = await load("numbers");
-const rates = await load("rates"), search = await load("search");
+const link = await load("link"), rates = await load("rates"), search = await load("search");
+const {Steps} = await load("undo");
 
 /// Numbers between 0 and 1, the same in every run.
 function random_numbers(seed) {
@@ -58,8 +59,13 @@ test("looks that are kept short mean the same as all of them in turn", () => {
     let short = [];
     for (let i = 0; i < 12; i++) {
       const [member, value] = random() < 0.7 ? ["state", one_of(looks.STATES)] : ["color", [random(), 0, 0]];
-      all.push({path: one_of(places), [member]: value});
-      short = looks.with_look(table, short, all.at(-1).path, member, value);
+      const several = [one_of(places), ...random() < 0.3 ? [one_of(places)] : []];
+      all.push(...several.map(path => ({path, [member]: value})));
+      short = looks.with_looks(table, short, several, member, value);
+      if (random() < 0.1) {
+        all.push(...["/a", "/d"].map(path => ({path, state: "hidden"})));
+        short = looks.with_state_of_all(table, short, "hidden");
+      }
       const {states, colors} = table;
       for (const list of [all, short]) {
         looks.apply_looks(table, list);
@@ -71,12 +77,55 @@ test("looks that are kept short mean the same as all of them in turn", () => {
   }
 });
 
+test("looks of 100,000 parts beside each other take linear time", () => {
+  const paths = Array.from({length: 100000}, (_, i) => `/part${i}.r`), table = looks.region_table(regions_of(paths));
+  const hidden = looks.with_state_of_all(table, [], "hidden");
+  const alone = looks.with_looks(table, hidden, ["/part7.r"], "state", "shown");
+  assert.equal(table.states.filter(state => state === 0).length, 1);
+  assert.deepEqual(looks.with_state_of_all(table, alone, "shown"), []);
+  assert.deepEqual(looks.lost_paths(table, ["/part7.r", "/gone"]), ["/gone"]);
+});
+
+test("undo goes back and forth among the states; one drag is one step", () => {
+  const steps = new Steps(), [a, b, c, d] = [[1], [2], [3], [4]];
+  const note = (looks, moving, now) => steps.note({looks, clip: a}, moving, now);
+  [[a, false, 0], [b, true, 100], [c, true, 200], [[c[0]], true, 300], [d, true, 2000]].forEach(one => note(...one));
+  assert.deepEqual([-1, -1, -1].map(count => steps.go(count)?.looks), [c, a, undefined]);
+  assert.equal(steps.can_undo, false);
+  assert.deepEqual([1, 1, 1].map(count => steps.go(count)?.looks), [c, d, undefined]);
+  steps.go(-1);
+  note(b, false, 3000);
+  assert.equal(steps.can_redo, false);
+  assert.equal(steps.go(-1).looks, c);
+});
+
+test("a link gives what it was made of; what is wrong with others is said", () => {
+  const usual = {camera: {azimuth: 1, elevation: 2, perspective: 0, center: [0, 0, 0], view_size: 9}, clip: [],
+                 looks: [], show: "color"};
+  const view = {...usual, clip: [{normal: [1, 0, 0], distance: 2}], looks: [{path: "/a'%#", state: "ghost"}]};
+  const page = {slice: {plane: 0, place: [1, 2], mm: 0.5}, selected: ["/a"],
+                answer: {camera: usual.camera, width: 9, height: 8, x: 3, y: 4, from: [1, 2, 3], to: [4, 5, 6]}};
+  const read = text => link.read_link(text, usual, ["color"]);
+  assert.deepEqual(read(link.written_link(view, page).slice(1)), {view, ...page});
+  for (const [text, why] of [["%7Bbad", /cut short/], ["%E0%A4", /cut short/], ["[1]", /object/], ["null", /object/],
+    ['{"looks":[null]}', /looks/], ['{"clip":[{}]}', /clip/], ['{"camera":{"view_size":0}}', /camera/],
+    ['{"show":"all"}', /show/], ['{"slice":{"plane":0}}', /slice/], ['{"selected":[1]}', /selected/],
+    ['{"answer":{"x":1}}', /answer/]]) assert.throws(() => read(text), why, text);
+});
+
 test("the search gives the shortest path whose last leg ends the match", () => {
   const paths = ["/car/wheels/left", "/car/wheels/right", "/car/wheel.r", "/Wheel"];
   assert.deepEqual(search.found_in(paths, "wheel"),
-                   [["/car/wheels", false], ["/car/wheel.r", true], ["/Wheel", true]]
-                     .map(([path, leaf]) => ({path, leaf})));
-  assert.deepEqual(search.found_in(paths, "car/wheels/l"), [{path: "/car/wheels/left", leaf: true}]);
+                   [["/car/wheels", false, 5], ["/car/wheel.r", true, 5], ["/Wheel", true, 1]]
+                     .map(([path, leaf, at]) => ({path, leaf, at})));
+  assert.deepEqual(search.found_in(paths, "car/wheels/l"), [{path: "/car/wheels/left", leaf: true, at: 1}]);
+});
+
+test("a long name keeps its end, and the match is marked in both halves", () => {
+  assert.deepEqual(search.name_pieces("short.r"), {head: [["short.r", false]], tail: []});
+  const {head, tail} = search.name_pieces("bottom_plate_left_0123.r", 12, 20);
+  assert.deepEqual(head, [["bottom_plate", false], ["_lef", true]]);
+  assert.deepEqual(tail, [["t_01", true], ["23.r", false]]);
 });
 
 test("coarse frames become coarser when they are slow, and finer when a finer frame would be quick", () => {
@@ -103,8 +152,8 @@ const without_texts = text => text.replace(/\\./g, "").replace(/"[^"\n]*"/g, '""
 test("every module imports the names that it uses, and no others", () => {
   const exported = new Map();
   for (const [name, text] of modules)
-    for (const [, line] of text.matchAll(/^export (?:async )?(?:const|let|function) (.*)/gm))
-      for (const [, found] of ` ${line.startsWith("{") ? "" : line}`.matchAll(/(?:^ |, )(\w+)(?= = |\()/g))
+    for (const [, line] of text.matchAll(/^export (?:async )?(?:const|let|function|class) (.*)/gm))
+      for (const [, found] of ` ${line.startsWith("{") ? "" : line}`.matchAll(/(?:^ |, )(\w+)(?= = |\(| \{)/g))
         exported.set(found, name);
   for (const [name, text] of modules) {
     const imported = [...text.matchAll(/^import \{([^}]*)\} from "\.\/([^"]*)";/gm)]

@@ -1,45 +1,75 @@
-// What a user does to parts: states, colours, fits.
-import {draw_answer, draw_selected} from "./ask.mjs";
+// What a user does to parts: states, colours, fits; and how it is undone.
+import {answer, draw_answer, draw_selected, hold_answer, previous} from "./ask.mjs";
 import {fitted} from "./camera.mjs";
+import {build_planes} from "./cut.mjs";
+import {by} from "./dom.mjs";
 import {changed} from "./frames.mjs";
-import {apply_looks, with_look, without_colors} from "./looks.mjs";
+import {apply_looks, with_looks, with_state_of_all, without_colors} from "./looks.mjs";
 import {union_of} from "./numbers.mjs";
 import {slice_changed} from "./slice.mjs";
 import {bounds, range, regions, view} from "./state.mjs";
-import {draw_tree, top_paths} from "./tree.mjs";
+import {draw_tree} from "./tree.mjs";
+import {Steps} from "./undo.mjs";
 
-const set_look = (path, member, value) => { view.looks = with_look(regions, view.looks, path, member, value); };
-/// Gives all of the model one state.
-function set_all(state) {
-  view.looks = view.looks.filter(look => look.color).map(({path, color}) => ({path, color}));
-  for (const path of top_paths()) set_look(path, "state", state);
+const steps = new Steps();
+const present = () => ({looks: view.looks, clip: view.clip, answer, previous});
+/// Notes looks, cuts and measurements as they are now, so that one can come back.
+export function remember(moving = false) {
+  steps.note(present(), moving, performance.now());
+  show_steps();
 }
+function show_steps() {
+  by("undo").disabled = !steps.can_undo;
+  by("redo").disabled = !steps.can_redo;
+}
+/// Goes a step back (-1) or forth (1).
+export function go_step(count, event) {
+  const state = steps.go(count);
+  if (!state) return;
+  Object.assign(view, {looks: state.looks, clip: state.clip});
+  hold_answer(state);
+  build_planes();
+  looked(event);
+  show_steps();
+}
+/// Answers have the numbers of a model's regions: they go when the model does.
+export function forget_answers() {
+  const none = {answer: null, previous: null};
+  hold_answer(none);
+  steps.change(state => ({...state, ...none}));
+}
+const set_looks = (paths, member, value) => { view.looks = with_looks(regions, view.looks, paths, member, value); };
 function fit(parts) {
   view.camera = fitted(view.camera, union_of(parts) ?? bounds());
 }
+const parts_of = paths => paths.flatMap(path => regions.sorted.slice(...range(path)));
 export const act = {
-  state(path, state, event) {
-    set_look(path, "state", state);
+  state(paths, state, event) {
+    set_looks(paths, "state", state);
     looked(event);
   },
-  color(path, rgb, event) {
-    set_look(path, "color", rgb);
+  color(paths, rgb, event) {
+    set_looks(paths, "color", rgb);
     looked(event, true);
   },
-  own_color(path, event) {
-    view.looks = without_colors(view.looks, path);
+  own_color(paths, event) {
+    for (const path of paths) view.looks = without_colors(view.looks, path);
     looked(event);
   },
-  isolate(path, event) {
-    set_all("hidden");
-    act.state(path, "shown", event);
+  isolate(paths, event) {
+    view.looks = with_state_of_all(regions, view.looks, "hidden");
+    act.state(paths, "shown", event);
+  },
+  isolate_fit(paths, event) {
+    fit(parts_of(paths));
+    act.isolate(paths, event);
   },
   show_all(event) {
-    set_all("shown");
+    view.looks = with_state_of_all(regions, view.looks, "shown");
     looked(event);
   },
-  fit(path, event) {
-    fit(regions.sorted.slice(...range(path)));
+  fit(paths, event) {
+    fit(parts_of(paths));
     changed(event);
   },
   fit_shown(event) {

@@ -1,51 +1,84 @@
-// The address: it has the view after #.
+// The address: it has the view after #, the slice, the selection and the measurement. Back closes what is open.
 import {looked} from "./acts.mjs";
+import {answer, ask_again, previous, select} from "./ask.mjs";
 import {build_planes} from "./cut.mjs";
 import {by, say} from "./dom.mjs";
-import {STATES} from "./looks.mjs";
-import {ended, hold, model, view} from "./state.mjs";
+import {set_camera} from "./frames.mjs";
+import {escape_all} from "./keys.mjs";
+import {checked, read_link, written_link} from "./link.mjs";
+import {lost_paths} from "./looks.mjs";
+import {open_panel} from "./panels.mjs";
+import {open_slice, slice} from "./slice.mjs";
+import {ended, hold, model, regions, selection, view} from "./state.mjs";
 
 let address_timer = 0;
-/// Browsers refuse more than some 20 changes a second.
+/// The address follows the view. Browsers refuse more than some 20 changes a second.
 export function keep_address() {
   address_timer ||= setTimeout(() => {
     address_timer = 0;
-    if (!ended) history.replaceState(null, "", "#" + encodeURIComponent(JSON.stringify(view)));
+    write_address();
   }, 250);
 }
-/// A whole view of what somebody gave. Throws what is wrong with it.
-export function checked(given) {
-  const expect = (good, text) => {
-    if (!good) throw new Error(text);
-  };
-  const is_vector = v => Array.isArray(v) && v.length === 3 && v.every(Number.isFinite);
-  const is_plane = p => p && is_vector(p.normal) && Math.hypot(...p.normal) > 0 && Number.isFinite(p.distance);
-  const is_look = ({path, state, color} = {}) => typeof path === "string" && (!color || is_vector(color)) &&
-    (!state || STATES.includes(state));
-  expect(given && typeof given === "object", "a view is an object");
-  const {clip, looks, show} = {...structuredClone(model.view), ...given};
-  const {azimuth, elevation, perspective, center, view_size} = {...model.view.camera, ...given.camera};
-  expect([azimuth, elevation, perspective, view_size].every(Number.isFinite) && is_vector(center) && view_size > 0 &&
-         Math.abs(elevation) <= 90 && perspective >= 0 && perspective < 180, "its camera is none");
-  expect(Array.isArray(clip) && clip.length <= 3 && clip.every(is_plane), "clip is a list of up to three planes");
-  expect(Array.isArray(looks) && looks.every(is_look), "looks is a list of paths with states or colours");
-  expect([...by("show").options].some(o => o.value === show), "show is unknown");
-  return {camera: {azimuth, elevation, perspective, center, view_size},
-          clip: clip.map(({normal, distance}) => ({normal, distance})), looks, show};
+const present_link = () => written_link(view, {
+  slice: slice.plane < 0 ? null : {plane: slice.plane, place: slice.place, mm: slice.mm}, selected: selection,
+  answer: answer && {...answer.asked, ...answer.point && {to: answer.point}, ...previous && {from: previous}}});
+export function write_address() {
+  if (!ended) history.replaceState(history.state, "", present_link());
 }
+const shows = () => [...by("show").options].map(option => option.value);
+export const checked_view = given => checked(given, model.view, shows());
 export function set_view(given) {
-  hold({view: checked(given)});
+  hold({view: checked_view(given)});
   build_planes();
   looked();
 }
 export function read_address() {
-  const text = location.hash.slice(1);
-  if (!text) return;
+  if (!location.hash.slice(1) || decodeURI(location.hash) === decodeURI(present_link())) return;
   try {
-    const given = JSON.parse(decodeURIComponent(text));
-    if (JSON.stringify(given) !== JSON.stringify(view)) set_view(given);
+    use_link(read_link(location.hash.slice(1), model.view, shows()));
     say("address", "");
   } catch (error) {
-    say("address", `The view in the address is not used: ${error.message}.`);
+    say("address", `The link in the address is not used: ${error.message}. The page shows the view as it was.`);
   }
+}
+function use_link({view: given, slice: part, selected: paths, answer: asked}) {
+  set_view(given);
+  const lost = lost_paths(regions, [...given.looks.map(({path}) => path), ...paths]);
+  say("lost", !lost.length ? "" : `The link names ${lost.length === 1 ? "a part that is" : lost.length +
+    " parts that are"} not in this model, such as ${lost[0]}: they may have gone with another version of the file.`);
+  select(...paths.filter(path => !lost.includes(path)));
+  if (part) {
+    open_panel("cut", true);
+    open_slice(part.plane);
+    Object.assign(slice, {place: part.place, mm: part.mm});
+  }
+  set_camera(given.camera);
+  if (asked) ask_again(asked);
+}
+
+// An entry of the history stands before the page's: Back comes there, and the page goes on.
+let is_guarded = history.state === "guard";
+export function guard() {
+  if (is_guarded || window !== top) return;
+  is_guarded = true;
+  say("back", "");
+  history.replaceState("before", "");
+  history.pushState("guard", "");
+}
+window.addEventListener("popstate", ({state}) => {
+  if (state !== "before" && state !== "guard") return;  // another # was typed
+  write_address();
+  is_guarded = state === "guard";
+  if (is_guarded) return;
+  if (close_last()) guard();
+  else say("back", "Back once more leaves the page.");
+});
+for (const name of ["pointerdown", "keydown"]) document.addEventListener(name, guard, true);
+/// Closes a dialog, else the slice, else what Escape closes. False: nothing is open.
+function close_last() {
+  const dialog = document.querySelector("dialog[open]");
+  if (dialog) dialog.close();
+  else if (slice.plane >= 0) open_slice(-1);
+  else return escape_all();
+  return true;
 }

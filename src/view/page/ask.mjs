@@ -1,6 +1,8 @@
 // Ask: what is selected, what stands at a pixel, and what lies behind it.
+import {remember} from "./acts.mjs";
+import {keep_address} from "./address.mjs";
 import {size} from "./camera.mjs";
-import {by, el, is_focused} from "./dom.mjs";
+import {by, el, is_focused, named} from "./dom.mjs";
 import {hook, keep, loop, when_painted} from "./frames.mjs";
 import {last_leg} from "./looks.mjs";
 import {load_model} from "./main.mjs";
@@ -9,42 +11,51 @@ import {ask, attempt} from "./net.mjs";
 import {clamp, css, dot, hex, minus, number, numbers, union_of} from "./numbers.mjs";
 import {draw_overlay} from "./overlay.mjs";
 import {open_panel} from "./panels.mjs";
-import {color_of, ended, hold, model, path_of, range, regions, selected, view} from "./state.mjs";
+import {color_of, ended, hold, model, path_of, range, regions, selected, selection, view} from "./state.mjs";
 import {draw_tree, reveal, state_word} from "./tree.mjs";
 
 export let answer = null, previous = null;  // the last answer, and the point that was clicked before
-export let selected_box = null;
-export function select(path) {
-  hold({selected: path});
-  if (path !== null) reveal(path);
+/// The boxes of the selected parts that are bounded.
+export let selected_boxes = [];
+/// Selects the parts of these paths, and no others. The last of them comes into sight.
+export function select(...paths) {
+  hold({selection: paths});
+  if (selected !== null) reveal(selected);
   draw_tree();
   draw_selected();
-  for (const part of by("beam").querySelectorAll("button")) part.ariaPressed = String(part.dataset.path === selected);
+  for (const part of by("beam").querySelectorAll("button"))
+    part.ariaPressed = String(selection.includes(part.dataset.path));
+  keep_address();
   draw_overlay();
 }
+/// Selects a part besides the others, or no longer.
+export const toggle_selected = path =>
+  select(...selection.includes(path) ? selection.filter(other => other !== path) : [...selection, path]);
 const facts = (list, pairs) => by(list).replaceChildren(...pairs.flatMap(([name, value]) =>
   [el("dt", {textContent: name}), el("dd", {textContent: value})]));
 export function draw_selected() {
   by("selected").hidden = selected === null;
   by("hint").hidden = selected !== null || answer !== null;
   if (selected === null) return;
-  const [low, high] = range(selected), region = regions.sorted[low];
-  selected_box = union_of(regions.sorted.slice(low, high));
+  const [low] = range(selected), region = regions.sorted[low], ranges = selection.map(range);
+  selected_boxes = ranges.map(([low, high]) => union_of(regions.sorted.slice(low, high))).filter(Boolean);
+  const box = union_of(selected_boxes), several = selection.length > 1;
   by("selected-swatch").style.background = css(regions.colors[low]);
-  by("selected-path").textContent = selected;
+  by("selected-path").textContent = several ? `${selection.length} parts` : selected;
+  by("selected-path").title = selection.slice(-30).join("\n");
   if (!is_focused(by("selected-color"))) by("selected-color").value = hex(regions.colors[low]);
   facts("selected-facts", [
-    ...region.path !== selected ? [["regions", high - low]] : [["region id", region.region_id],
-      ["material", region.material_id], ["air", region.air], ["los", region.los]],
-    ["state", state_word([low, high])],
-    ["box", selected_box ? minus(selected_box.high, selected_box.low).map(v => number(v, 5)).join(" x ") : "open"]]);
+    ...several || region.path !== selected ? [["regions", ranges.reduce((sum, [low, high]) => sum + high - low, 0)]] :
+      [["region id", region.region_id], ["material", region.material_id], ["air", region.air], ["los", region.los]],
+    ["state", state_word(ranges)],
+    ["box", box ? minus(box.high, box.low).map(v => number(v, 5)).join(" x ") : "open"]]);
 }
 /// Asks what stands at a place of the picture: the server is told whole pixels of the full one.
 export async function ask_pixel(x, y, brief) {
   const {width, height, css_width, css_height} = size;
-  const made = await ask("pick", {view, width, height, brief,
-    x: clamp(Math.floor(x * width / css_width), 0, width - 1),
-    y: clamp(Math.floor(y * height / css_height), 0, height - 1)});
+  const pixel = {width, height, x: clamp(Math.floor(x * width / css_width), 0, width - 1),
+                 y: clamp(Math.floor(y * height / css_height), 0, height - 1)};
+  const made = {...await ask("pick", {view, ...pixel, brief}), asked: {camera: view.camera, ...pixel}};
   if (made.generation === model.generation) return made;
   await load_model();  // the numbers of regions are those of a file that has changed
   if (made.generation !== model.generation) throw new Error("The model has changed: ask again.");
@@ -57,8 +68,9 @@ export async function pick(x, y) {
   open_panel("answer", true);
   previous = answer?.point ?? previous;
   answer = made;
-  select(made.region === null ? null : path_of(made.region));
+  select(...made.region === null ? [] : [path_of(made.region)]);
   draw_answer();
+  remember();
   when_painted(() => keep(hook.answers, performance.now() - begun));
   return made.point ?? null;
 }
@@ -70,8 +82,9 @@ export function draw_answer() {
   by("hit-title").textContent = point ? `Last click: ${path_of(answer.region)}` : "Last click";
   facts("hit-facts", !point ? [["hit", "nothing"]] : [
     ["solid", solid ? `${solid.name} (${solid.type})` : "a cut"], ["point", numbers(point)],
-    ["normal", numbers(answer.normal, 5)], ["distance", `${number(answer.t)} from the ray's start`],
-    ["ray to normal", `${number(angle_of(answer), 3)} degrees: thicknesses below are along the ray`]]);
+    ["distance", `${number(answer.t)} from the ray's start`], ...!answer.normal ? [] :
+      [["normal", numbers(answer.normal, 5)],
+       ["ray to normal", `${number(angle_of(answer), 3)} degrees: thicknesses below are along the ray`]]]);
   const apart = point && previous ? minus(point, previous) : null;
   by("measure").hidden = !apart;
   if (apart) by("measure").textContent = `From the point clicked before: ${number(Math.hypot(...apart))} mm ` +
@@ -97,7 +110,7 @@ function draw_beam(parts, overlaps, hit) {
   };
   const marks = parts.map(p => {
     const path = path_of(p.region), thick = number(thickness(p));
-    const part = el("button", {title: `${path}\n${thick} mm`, ariaPressed: String(path === selected),
+    const part = el("button", {title: `${path}\n${thick} mm`, ariaPressed: String(selection.includes(path)),
       ariaLabel: `${path}, ${thick} thick, from ${number(p.in)} to ${number(p.out)}`, onclick: () => select(path)});
     part.dataset.path = path;
     part.style.background = css(color_of(p.region));
@@ -123,7 +136,7 @@ function draw_beam(parts, overlaps, hit) {
 /// stands in red before the part in which it begins.
 function end_rows(parts, overlaps) {
   const made = [], left = [...overlaps], add = (className, ...cells) => made.push(el("tr", {className}, ...cells));
-  const cell = (text, className = "", colSpan = 1) => el("td", {textContent: text, className, colSpan});
+  const cell = (text, className = "", colSpan = 1) => el("td", {textContent: text, title: text, className, colSpan});
   const overlaps_before = end => {
     while (left.length && (left[0].in ?? -Infinity) < end) {
       const overlap = left.shift(), paths = overlap.regions.map(path_of), names = paths.map(last_leg).join(", ");
@@ -139,7 +152,7 @@ function end_rows(parts, overlaps) {
     overlaps_before(p.out ?? Infinity);
     const swatch = el("span", {className: "swatch"}), thick = thickness(p);
     swatch.style.background = css(color_of(p.region));
-    const name = el("button", {title: path, onclick: () => select(path)}, swatch, last_leg(path));
+    const name = el("button", {title: path, onclick: () => select(path)}, swatch, named(last_leg(path)));
     add("part", el("td", {colSpan: 3}, name), cell(thick === null ? "open" : number(thick, 6) + " mm", "number"));
     end("in", p.in, p.in_solid);
     end("out", p.out, p.out_solid);
@@ -149,21 +162,40 @@ function end_rows(parts, overlaps) {
 }
 /// Takes the answer away, and with the selection what is marked by it.
 export function forget_answer() {
-  drop_answer();
-  select(null);
+  hold_answer({answer: null, previous: null});
+  select();
   draw_answer();
+  remember();
 }
-/// An answer has the numbers of the old model's regions: it goes with the model.
-export function drop_answer() {
-  answer = previous = null;
+export function hold_answer(held) {
+  ({answer, previous} = held);
 }
 /// Copies by the selection: navigator.clipboard is not there in a notebook's frame.
 export function copy(source, button) {
   getSelection().selectAllChildren(by(source));
+  const label = button.textContent;
   button.textContent = document.execCommand("copy") ? "Copied" : "Selected";
-  setTimeout(() => { button.textContent = "Copy"; }, 1500);
+  setTimeout(() => { button.textContent = label; }, 1500);
 }
 export const hover = {place: null, busy: false};
+/// Asks again what a link's answer was: `asked` has the camera, the picture's size and the pixel, `to` the point that
+/// was hit, `from` the point that was clicked before.
+export async function ask_again({from, to, ...asked}) {
+  const camera = asked.camera, made = await attempt("pick", () => ask("pick", {...asked, view: {...view, camera}}));
+  if (!made || made.generation !== model.generation) return;
+  hold_answer({answer: {...made, ...to && hit_at(made, to), asked}, previous: from ?? null});
+  draw_answer();
+  draw_selected();
+  remember();
+}
+/// The hit at a point of an answer's ray. It was the first hit before parts were hidden or cut away.
+export function hit_at({partitions, ray}, point) {
+  const t = dot(minus(point, ray.origin), ray.direction), most = 1e-6 * (1 + Math.abs(t));
+  const part = partitions.find(p => (p.in ?? -Infinity) <= t + most && (p.out ?? Infinity) > t + most);
+  const begins = part && part.in !== null && Math.abs(part.in - t) <= most;
+  return part && {point, t, region: part.region, solid: begins ? part.in_solid : null,
+                  normal: begins ? part.in_normal : null};
+}
 /// Names the region under the mouse: one question at a time, for the newest place, and none while something moves.
 export async function ask_hover() {
   if (hover.busy || !hover.place || pointers.size || loop.moving || ended) return;

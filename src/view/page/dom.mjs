@@ -1,4 +1,5 @@
 // Elements of the page, and the bar that has its messages.
+import {name_pieces} from "./search.mjs";
 
 export const by = id => document.getElementById(id);
 export const is_focused = element => document.activeElement === element;
@@ -7,6 +8,13 @@ export function el(tag, properties = {}, ...children) {
   const made = Object.assign(document.createElement(tag), properties);
   made.append(...children);
   return made;
+}
+/// The element of a name that is cut short in its middle, with a match from `from` to `to` marked.
+export function named(name, from, to) {
+  const {head, tail} = name_pieces(name, from, to);
+  const part = (className, pieces) => el("span", {className}, ...pieces.map(([text, is_match]) =>
+    is_match ? el("mark", {textContent: text}) : text));
+  return el("span", {className: "name", title: name}, part("head", head), part("tail", tail));
 }
 export function svg(tag, attributes = {}) {
   const made = document.createElementNS("http://www.w3.org/2000/svg", tag);

@@ -1,4 +1,5 @@
 // Frames: what is asked for next, the request that is under way, and the pixels that it brings.
+import {remember} from "./acts.mjs";
 import {keep_address} from "./address.mjs";
 import {ask_hover} from "./ask.mjs";
 import {size} from "./camera.mjs";
@@ -154,6 +155,7 @@ export function changed(event = null, moving = false) {
   if (loop.job && !loop.job.coarse) loop.job.abort.abort();
   by("perspective").ariaPressed = String(view.camera.perspective > 0);
   by("show").value = view.show;
+  remember(moving);
   keep_address();
   pump();
 }

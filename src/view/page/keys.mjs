@@ -1,5 +1,5 @@
 // Keys, and the cross that they move.
-import {act} from "./acts.mjs";
+import {act, go_step} from "./acts.mjs";
 import {answer, ask_hover, ask_pixel, forget_answer, hover, pick} from "./ask.mjs";
 import {size} from "./camera.mjs";
 import {by} from "./dom.mjs";
@@ -9,7 +9,7 @@ import {attempt} from "./net.mjs";
 import {clamp} from "./numbers.mjs";
 import {draw_overlay} from "./overlay.mjs";
 import {open_panel} from "./panels.mjs";
-import {selected, view} from "./state.mjs";
+import {selected, selection, view} from "./state.mjs";
 import {list_rows} from "./tree.mjs";
 
 export const cross_hair = {place: null};
@@ -26,7 +26,7 @@ const moving = move => (event, key) => {
   changed(event, true);
 };
 const toggle_perspective = event => set_camera({perspective: view.camera.perspective ? 0 : 30}, event);
-export const with_selected = run => event => selected !== null && run(selected, event);
+export const with_selected = run => event => selected !== null && run(selection, event);
 export const ARROWS = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1],
                 a: [-1, 0], d: [1, 0], w: [0, -1], s: [0, 1]};
 /// Rows of the help: the keys, what the help says, what they do.
@@ -50,10 +50,12 @@ export const KEYS = [
   [["p"], "ask at the cross, or in the middle", () => pick(...aim_place())],
   [["c"], "the point at the cross becomes the centre", async event =>
     center_at((await attempt("pick", () => ask_pixel(...aim_place(), true)))?.point, event)],
-  [["h"], "hide what is selected", with_selected((path, event) => act.state(path, "hidden", event))],
-  [["g"], "ghost what is selected", with_selected((path, event) => act.state(path, "ghost", event))],
+  [["h"], "hide what is selected", with_selected((paths, event) => act.state(paths, "hidden", event))],
+  [["g"], "ghost what is selected", with_selected((paths, event) => act.state(paths, "ghost", event))],
   [["i"], "isolate what is selected", with_selected(act.isolate)],
   [["u"], "show all", act.show_all],
+  [["Ctrl+z"], "undo", event => go_step(-1, event)],
+  [["Ctrl+Shift+z", "Ctrl+y"], "redo", event => go_step(1, event)],
   [["/"], "search the parts", begin_search],
   [["?"], "this list", () => by("help").showModal()],
   [["Escape"], "forget the answer and the selection, then close the panels", escape_all],
@@ -64,17 +66,25 @@ export const MOUSE = [["drag", "turn about the point under the mouse"], ["Shift+
   ["in the tree", "arrows move, Space changes the state, Enter or a double click fits"],
   ["drop a file", "open a saved view"]];
 export const run_of = new Map(KEYS.flatMap(([keys, , run]) => keys.map(key => [key, run])));
+/// Whether a control needs a key itself: fields all but Escape, others those that change or press them.
+function keeps_key({tagName, type}, key) {
+  if (key === "Escape") return false;
+  if (tagName === "INPUT" && /^(text|number|search)$/.test(type)) return true;
+  if (/^(INPUT|SELECT)$/.test(tagName)) return /^(Arrow|Page|Home|End|Enter| )/.test(key);
+  return tagName === "BUTTON" && /^(Enter| )$/.test(key);
+}
 document.addEventListener("keydown", event => {
-  const tag = event.target.tagName;
-  if (event.ctrlKey || event.metaKey || event.altKey || document.querySelector("dialog[open]") || !view) return;
-  if (event.key !== "Escape" && /^(INPUT|SELECT)$/.test(tag) || tag === "BUTTON" && event.key === "Enter") return;
-  const key = event.key.length === 1 ? event.key.toLowerCase() : event.key;
-  const run = run_of.get(event.shiftKey && key.startsWith("Arrow") ? "Shift+" + key : key);
+  if (event.altKey || document.querySelector("dialog[open]") || !view || keeps_key(event.target, event.key)) return;
+  const key = event.key.length === 1 ? event.key.toLowerCase() : event.key, ctrl = event.ctrlKey || event.metaKey;
+  const shift = event.shiftKey && (ctrl || key.startsWith("Arrow"));
+  const run = run_of.get((ctrl ? "Ctrl+" : "") + (shift ? "Shift+" : "") + key);
   if (!run) return;
   event.preventDefault();
   run(event, key);
 });
-function escape_all() {
+/// Closes what is open, a step a time. False: nothing was.
+export function escape_all() {
+  const open = ["cut", "warnings", "save"].filter(panel => !by(panel).hidden);
   if (answer || selected !== null || cross_hair.place) {
     cross_hair.place = null;
     forget_answer();
@@ -82,8 +92,10 @@ function escape_all() {
     by("search").value = "";
     list_rows();
   } else {
-    for (const panel of ["cut", "warnings", "save"]) open_panel(panel, false);
+    for (const panel of open) open_panel(panel, false);
+    return open.length > 0;
   }
+  return true;
 }
 function begin_search() {
   open_panel("parts", true);

@@ -42,25 +42,57 @@ export function apply_looks(table, looks) {
     if (look.color) table.colors.fill(look.color, low, high);
   }
 }
-/// The looks with one more, if it changes anything. It replaces the looks at its path and below, so that the list
-/// stays short. `member` is "state" or "color". The table gets the result.
-export function with_look(table, looks, path, member, value) {
-  const kept = looks.flatMap(look => {
-    if (!covers(path, look.path) || look[member] === undefined) return [look];
+/// Whether one of the paths in a Set is a path or leads to it.
+function covers_any(paths, path) {
+  if (paths.has("/")) return true;
+  for (let end = path.length; end > 0; end = path.lastIndexOf("/", end - 1))
+    if (paths.has(path.slice(0, end))) return true;
+  return false;
+}
+/// The looks without one member, "state" or "color", at the paths in a Set and below.
+function without(looks, paths, member) {
+  return looks.flatMap(look => {
+    if (look[member] === undefined || !covers_any(paths, look.path)) return [look];
     const {[member]: _, ...others} = look;
     return Object.keys(others).length > 1 ? [others] : [];
   });
-  apply_looks(table, kept);
-  const [low, high] = range_of(table.paths, path), is_state = member === "state";
+}
+/// The looks with a value for the member of several paths, where it changes anything. New looks replace those at their
+/// paths and below, so that the list stays short. The time is linear in the regions, looks and paths. The table gets
+/// the result.
+export function with_looks(table, looks, paths, member, value) {
+  const made = without(looks, new Set(paths), member), is_state = member === "state";
+  apply_looks(table, made);
   const wanted = String(is_state ? STATES.indexOf(value) : value);
   const present = is_state ? table.states : table.colors;
-  if (present.slice(low, high).every(v => String(v) === wanted)) return kept;
-  const last = kept.at(-1);
-  const made = last?.path === path ? [...kept.slice(0, -1), {...last, [member]: value}]
-                                   : [...kept, {path, [member]: value}];
+  for (const path of paths) {
+    let [at, high] = range_of(table.paths, path);
+    while (at < high && String(present[at]) === wanted) at++;
+    if (at === high) continue;
+    const last = made.at(-1);
+    if (last?.path === path) made[made.length - 1] = {...last, [member]: value};
+    else made.push({path, [member]: value});
+  }
   apply_looks(table, made);
   return made;
 }
+/// The looks that give all regions a state, and keep their colours.
+export const with_state_of_all = (table, looks, state) =>
+  with_looks(table, without(looks, new Set(["/"]), "state"), top_paths(table), "state", state);
+/// The paths of one leg.
+function top_paths({paths}) {
+  const tops = [];
+  for (const path of paths) {
+    const end = path.indexOf("/", 1), top = end < 0 ? path : path.slice(0, end);
+    if (tops.at(-1) !== top) tops.push(top);
+  }
+  return tops;
+}
+/// The paths that lead to no region.
+export const lost_paths = ({paths}, given) => given.filter(path => {
+  const [low, high] = range_of(paths, path);
+  return low === high;
+});
 /// The looks without colours that concern a path.
 export const without_colors = (looks, path) => looks.flatMap(({color, ...look}) =>
   !covers(path, look.path) && !covers(look.path, path) ? [color ? {...look, color} : look] : look.state ? [look] : []);

@@ -1,20 +1,20 @@
 // The model as the server has it, and the start.
-import {act} from "./acts.mjs";
-import {checked, read_address} from "./address.mjs";
-import {copy, draw_answer, draw_selected, drop_answer} from "./ask.mjs";
+import {act, forget_answers, go_step} from "./acts.mjs";
+import {checked_view, read_address} from "./address.mjs";
+import {copy, draw_answer, draw_selected} from "./ask.mjs";
 import {size} from "./camera.mjs";
 import {add_plane, build_planes} from "./cut.mjs";
-import {by, el, notes, say} from "./dom.mjs";
+import {by, el, named, notes, say} from "./dom.mjs";
 import {MOST_SIDE, canvas, changed, loop, pump} from "./frames.mjs";
 import {KEYS, MOUSE, run_of, with_selected} from "./keys.mjs";
 import {apply_looks, region_table} from "./looks.mjs";
 import {ask, attempt} from "./net.mjs";
 import {clamp, from_hex} from "./numbers.mjs";
 import {draw_overlay, overlay} from "./overlay.mjs";
-import {SECTIONS, draw_warnings, open_panel} from "./panels.mjs";
-import {open_view, save} from "./save.mjs";
+import {SECTIONS, draw_warnings, restore_panels, toggle_panel} from "./panels.mjs";
+import {copy_link, open_view, save} from "./save.mjs";
 import {open_slice, refit_slice, slice_changed} from "./slice.mjs";
-import {ended, hold, model, range, regions, selected, view} from "./state.mjs";
+import {ended, hold, model, range, regions, selection, view} from "./state.mjs";
 import {build_tree, draw_tree, list_rows, tree_key} from "./tree.mjs";
 
 export async function load_model() {
@@ -23,25 +23,32 @@ export async function load_model() {
   const is_first = !model;
   hold({model: made, regions: region_table(made.regions)});
   document.title = `${model.name} - csgrt`;
-  by("name").textContent = by("model").textContent = model.name;
+  by("name").replaceChildren(named(model.name));
+  by("model").textContent = model.name;
   by("name").title = by("model").title = model.title;
   by("device").textContent = model.device;
   by("save-exr").hidden = !model.exr;
   say("file", model.error);
   if (is_first) {
-    hold({view: checked(model.view)});
-    read_address();
+    hold({view: checked_view(model.view)});
+    set_first_camera();
   }
   loop.failed = -1;
+  forget_answers();
   apply_looks(regions, view.looks);
   changed();
-  if (selected !== null && range(selected)[0] === range(selected)[1]) hold({selected: null});
-  drop_answer();
+  hold({selection: selection.filter(path => range(path)[0] < range(path)[1])});
   build_tree();
   build_planes();
   draw_selected();
   draw_answer();
   draw_warnings();
+  if (is_first) read_address();
+}
+/// The first picture has the square that the model's own camera has, also in a window that is higher than wide.
+function set_first_camera() {
+  const {camera} = view, {width, height} = canvas.getBoundingClientRect();
+  view.camera = {...camera, view_size: camera.view_size / Math.min(1, width / height || 1)};
 }
 /// Looks once a second whether the server is there and its file has changed.
 async function look_for_changes() {
@@ -81,21 +88,24 @@ function watch_size() {
 }
 function connect() {
   const on = (id, run, name = "click") => by(id).addEventListener(name, run);
-  for (const name of ["parts", ...SECTIONS]) on("toggle-" + name, () => open_panel(name));
-  for (const name of SECTIONS) on("close-" + name, () => open_panel(name, false));
+  for (const name of ["parts", ...SECTIONS]) on("toggle-" + name, () => toggle_panel(name));
+  for (const name of SECTIONS) on("close-" + name, () => toggle_panel(name, false));
   for (const [id, key] of [["view-front", "1"], ["view-right", "3"], ["view-top", "7"], ["view-iso", "9"], ["fit", "f"],
                            ["perspective", "5"], ["help-button", "?"], ["show-all", "u"]]) on(id, run_of.get(key));
   for (const [id, state] of [["hide", "hidden"], ["ghost", "ghost"], ["show", "shown"]])
-    on("selected-" + id, event => act.state(selected, state, event));
+    on("selected-" + id, event => act.state(selection, state, event));
   for (const [id, run] of Object.entries({
-    "selected-isolate": event => act.isolate(selected, event), "selected-fit": event => act.fit(selected, event),
+    "selected-isolate": event => act.isolate(selection, event), "selected-fit": event => act.fit(selection, event),
+    "selected-isolate-fit": event => act.isolate_fit(selection, event),
+    "undo": event => go_step(-1, event), "redo": event => go_step(1, event),
     "copy-shoot": event => copy("shoot", event.target), "copy-command": event => copy("command", event.target),
+    "copy-link": copy_link,
     "save-png": save.png, "save-exr": save.exr, "save-view": save.view, "get-command": save.command,
     "add-plane": add_plane, "slice-fit": refit_slice, "slice-close": () => open_slice(-1),
     "close-help": () => by("help").close(), "end": () => by("ask-end").showModal(),
     "end-no": () => by("ask-end").close(), "end-yes": end_csgrt})) on(id, run);
   on("selected-own", with_selected(act.own_color));
-  on("selected-color", event => act.color(selected, from_hex(event.target.value), event), "input");
+  on("selected-color", event => act.color(selection, from_hex(event.target.value), event), "input");
   on("show", event => {
     view.show = by("show").value;
     changed(event);
@@ -120,7 +130,7 @@ function connect() {
   by("key-list").replaceChildren(...MOUSE.map(([what, does]) => line([what], does)), ...KEYS.map(([keys, does]) =>
     line(keys.flatMap(key => [el("kbd", {textContent: written(key)}), " "]), does)));
 }
-if (innerWidth <= 900) for (const name of ["parts", "answer"]) open_panel(name, false);
+restore_panels();
 connect();
 watch_size();
 load_model().then(look_for_changes);

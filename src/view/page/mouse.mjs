@@ -1,12 +1,12 @@
 // Mouse and touch on the picture.
-import {ask_hover, ask_pixel, hover, pick} from "./ask.mjs";
+import {ask_hover, ask_pixel, hover, pick, toggle_selected} from "./ask.mjs";
 import {depth_in, panned, turned, zoomed} from "./camera.mjs";
 import {by} from "./dom.mjs";
 import {canvas, changed, rest, set_camera} from "./frames.mjs";
 import {cross_hair} from "./keys.mjs";
 import {attempt} from "./net.mjs";
 import {clamp, minus} from "./numbers.mjs";
-import {bounds, view} from "./state.mjs";
+import {bounds, path_of, view} from "./state.mjs";
 
 export const pointers = new Map();
 /// The wheel's first notch at a place asks what is hit there: in perspective the eye goes toward the point, not past.
@@ -73,9 +73,15 @@ canvas.addEventListener("pointerleave", () => {
 canvas.addEventListener("click", async event => {
   if (drag.moved) return;
   // A panel that the first click opens may move the picture: the second click of a double click means the same point.
+  if (event.ctrlKey || event.metaKey) return void select_besides(event.offsetX, event.offsetY);
   if (event.detail === 1) drag.click = pick(event.offsetX, event.offsetY);
   if (event.detail === 2) center_at(await drag.click, event);
 });
+/// Selects the part at a place besides the others, or no longer.
+async function select_besides(x, y) {
+  const made = await attempt("pick", () => ask_pixel(x, y, true));
+  if (made && made.region !== null) toggle_selected(path_of(made.region));
+}
 export const center_at = (center, event) => center && set_camera({center}, event);
 by("picture").addEventListener("wheel", async event => {
   event.preventDefault();

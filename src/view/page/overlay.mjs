@@ -1,13 +1,14 @@
 // The overlay: what is drawn over the picture, for the camera of the frame that is shown.
-import {answer, previous, selected_box} from "./ask.mjs";
+import {answer, previous, selected_boxes} from "./ask.mjs";
 import {on_screen, plane_axes, plane_extent, plane_foot, size} from "./camera.mjs";
 import {set_plane} from "./cut.mjs";
 import {by, svg} from "./dom.mjs";
 import {loop, rest} from "./frames.mjs";
 import {cross_hair} from "./keys.mjs";
 import {along, corners, css, minus, unit} from "./numbers.mjs";
-import {bounds, color_of, model, path_of, selected, view} from "./state.mjs";
+import {bounds, color_of, model, path_of, selection, view} from "./state.mjs";
 
+const MOST_BOXES = 50;  // of selected parts
 export const overlay = by("overlay"), marks = {
   planes: svg("path", {stroke: "#62aee8", "stroke-opacity": 0.75, "stroke-dasharray": "5 4"}),
   box: svg("path", {stroke: "#ffd34d", "stroke-opacity": 0.8}),
@@ -46,7 +47,8 @@ export function draw_overlay() {
   if (!camera || !model) return;
   const cutting = by("cut").hidden ? [] : view.clip;
   marks.planes.setAttribute("d", screen_path(camera, cutting.flatMap(outline)));
-  marks.box.setAttribute("d", selected && selected_box ? screen_path(camera, box_edges(selected_box)) : "");
+  const boxes = selection.length ? selected_boxes.slice(-MOST_BOXES) : [];
+  marks.box.setAttribute("d", screen_path(camera, boxes.flatMap(box_edges)));
   marks.measure.setAttribute("d", answer?.point && previous ? screen_path(camera, [[previous, answer.point]]) : "");
   marks.cross.setAttribute("d", at ? `M${x - 12} ${y}h9m6 0h9M${x} ${y - 12}v9m0 6v9` : "");
   marks.ray.replaceChildren(...ray_lines(camera));
@@ -70,7 +72,7 @@ function ray_lines(camera) {
   add((parts[0].in ?? t - span) - 0.03 * span, (parts.at(-1).out ?? t + span) + 0.03 * span, {stroke: "#fff"});
   for (const p of parts.slice(0, 300))
     add(p.in ?? t - span, p.out ?? t + span,
-        {stroke: css(color_of(p.region)), "stroke-width": path_of(p.region) === selected ? 8 : 4});
+        {stroke: css(color_of(p.region)), "stroke-width": selection.includes(path_of(p.region)) ? 8 : 4});
   const [cx, cy] = (answer.point && on_screen(camera, answer.point)) ?? [];
   if (cx !== undefined) lines.push(svg("circle", {cx, cy, r: 4, fill: "#fff", stroke: "#000"}));
   return lines;

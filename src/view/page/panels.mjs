@@ -2,19 +2,53 @@
 import {act} from "./acts.mjs";
 import {select} from "./ask.mjs";
 import {by, el, say} from "./dom.mjs";
+import {canvas, changed} from "./frames.mjs";
 import {draw_overlay} from "./overlay.mjs";
-import {model, regions} from "./state.mjs";
+import {model, regions, view} from "./state.mjs";
 import {draw_tree} from "./tree.mjs";
 
 export const SECTIONS = ["answer", "cut", "warnings", "save"];
+const is_narrow = () => innerWidth <= 900;
+/// Keeps in view what was seen in the middle when a slice or a panel takes of the width. A lower picture crops nothing.
+export function keep_middle(run) {
+  const before = canvas.getBoundingClientRect();
+  run();
+  const after = canvas.getBoundingClientRect(), part = ({width, height}) => Math.min(1, width / height);
+  const factor = part(before) / part(after);
+  if (!view || before.width === after.width || factor === 1 || !Number.isFinite(factor)) return;
+  view.camera = {...view.camera, view_size: view.camera.view_size * factor};
+  changed();
+}
+/// Opens or closes a panel. There is room for one in a narrow window.
 export function open_panel(name, open = by(name).hidden) {
   if (by(name).hidden === !open) return;
-  by(name).hidden = !open;
+  for (const other of open && is_narrow() ? ["parts", ...SECTIONS] : [])
+    if (other !== name) open_panel(other, false);
+  keep_middle(() => {
+    by(name).hidden = !open;
+    by("side").hidden = SECTIONS.every(section => by(section).hidden);
+  });
   by("toggle-" + name).ariaPressed = String(open);
-  by("side").hidden = SECTIONS.every(section => by(section).hidden);
   if (open && name !== "parts") by(name).scrollIntoView({block: "nearest"});
   draw_overlay();
   draw_tree();
+}
+/// Opens or closes a panel as the user wants it, now and when the page is loaded again.
+export function toggle_panel(name, open) {
+  open_panel(name, open);
+  try {
+    localStorage.setItem("csgrt " + name, by(name).hidden ? "closed" : "open");
+  } catch { /* Storage is not there in a notebook's frame. */ }
+}
+/// Opens and closes panels as they were; at first the parts and the answer where there is room.
+export function restore_panels() {
+  for (const name of ["parts", "answer"]) {
+    let was = null;
+    try {
+      was = localStorage.getItem("csgrt " + name);
+    } catch { /* as above */ }
+    open_panel(name, !is_narrow() && was !== "closed");
+  }
 }
 export function draw_warnings() {
   const {warnings} = model;
@@ -32,7 +66,7 @@ function go_to(object, event) {
     const whole = legs.slice(0, at + 1).join("/");
     open_panel("parts", true);
     select(whole);
-    act.fit(whole, event);
+    act.fit([whole], event);
     return say("warning", "");
   }
   say("warning", object ? `No region's path has ${object}: nothing of it is in the picture.` : "");

@@ -1,5 +1,6 @@
 // Save: files and commands that the view leads to, and saved views.
-import {set_view} from "./address.mjs";
+import {set_view, write_address} from "./address.mjs";
+import {copy} from "./ask.mjs";
 import {size} from "./camera.mjs";
 import {by, el} from "./dom.mjs";
 import {canvas, loop} from "./frames.mjs";
@@ -26,6 +27,12 @@ export const save = {
     by("command").hidden = by("copy-command").hidden = false;
   }),
 };
+export function copy_link(event) {
+  write_address();
+  by("link").textContent = location.href;
+  by("link").hidden = false;
+  copy("link", event.target);
+}
 export const open_view = file => file && attempt("view", async () => {
   const text = await file.text();
   try {

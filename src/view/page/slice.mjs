@@ -1,4 +1,5 @@
 // The slice of a plane: a second pane.
+import {keep_address} from "./address.mjs";
 import {select} from "./ask.mjs";
 import {plane_axes, plane_extent, plane_foot, size} from "./camera.mjs";
 import {fill_planes} from "./cut.mjs";
@@ -8,6 +9,7 @@ import {ARROWS} from "./keys.mjs";
 import {wheel_factor} from "./mouse.mjs";
 import {attempt, post} from "./net.mjs";
 import {along, clamp, number, numbers} from "./numbers.mjs";
+import {keep_middle} from "./panels.mjs";
 import {bounds, color_of, ended, model, path_of, view} from "./state.mjs";
 
 export const slice = {plane: -1, busy: false, again: false, place: [0, 0], mm: 1, ids: null, width: 0, height: 0,
@@ -16,10 +18,11 @@ const slice_canvas = by("slice-canvas");
 export const pane = () => by("slice").getBoundingClientRect();
 export function open_slice(plane) {
   slice.plane = plane;
-  by("slice").hidden = plane < 0;
+  keep_middle(() => { by("slice").hidden = plane < 0; });
   if (plane >= 0) fit_slice();
   fill_planes();
   slice_changed();
+  keep_address();
 }
 /// Puts the model's box into the pane.
 export function fit_slice() {
@@ -77,6 +80,7 @@ function move_slice(dx, dy, factor = 1, x = 0, y = 0) {
   slice.place = [u - dx * slice.mm + x * k, v + dy * slice.mm + y * k];
   slice.mm *= factor;
   slice_changed();
+  keep_address();
 }
 slice_canvas.addEventListener("pointerdown", event => {
   slice_canvas.setPointerCapture(event.pointerId);

@@ -1,15 +1,15 @@
 // The tree of the parts: only the rows in sight have elements.
 import {act} from "./acts.mjs";
-import {select} from "./ask.mjs";
-import {by, el, is_focused} from "./dom.mjs";
+import {select, toggle_selected} from "./ask.mjs";
+import {by, el, is_focused, named} from "./dom.mjs";
 import {STATES, covers, last_leg} from "./looks.mjs";
 import {clamp, from_hex, hex} from "./numbers.mjs";
 import {found_in} from "./search.mjs";
-import {range, regions, selected} from "./state.mjs";
+import {range, regions, selected, selection} from "./state.mjs";
 
 const ROW = 26, WORDS = [...STATES, "partly shown"], MARKS = "\u25cf\u25d0\u25cb\u25d2";
+let anchor = null;  // where a range of rows begins
 let root = null, rows = [], pool = [], search = {};
-export const top_paths = () => root.children.map(({path}) => path);
 const new_node = (path, depth, low, high, leaf) => ({path, depth, low, high, leaf, open: false, children: null});
 /// Children are found when a node is opened for the first time: each skips its whole range. Children stand in the
 /// order that their first regions have in the model.
@@ -57,8 +57,8 @@ export function list_rows() {
 }
 function found(text) {
   if (search.text === text && search.paths === regions.paths) return search.nodes;
-  const nodes = found_in(regions.paths, text).map(({path, leaf}) =>
-    ({...new_node(path, 0, ...range(path), leaf), full: true}));
+  const nodes = found_in(regions.paths, text).map(({path, leaf, at}) =>
+    ({...new_node(path, 0, ...range(path), leaf), match: [at, at + text.length]}));
   search = {text, paths: regions.paths, nodes};
   return search.nodes;
 }
@@ -67,7 +67,13 @@ const state_of = ({low, high}) =>
   regions.states.subarray(low, high).every(state => state === regions.states[low]) ? regions.states[low] : 3;
 /// The state that a click leads to: some of each become shown.
 const next_state = node => STATES[(state_of(node) + 1) % 4 % 3];
-export const state_word = ([low, high]) => WORDS[state_of({low, high})];
+/// The word for what regions of several ranges have in common.
+export function state_word(ranges) {
+  const states = new Set(ranges.map(([low, high]) => state_of({low, high})));
+  return WORDS[states.size > 1 ? 3 : [...states][0]];
+}
+/// The parts that a control of a row means: the row's, or all that are selected where it is among them.
+const meant = ({path}) => selection.includes(path) ? selection : [path];
 function make_row() {
   const row = el("div", {className: "row", role: "treeitem"});
   const on_node = run => event => {
@@ -75,16 +81,23 @@ function make_row() {
     run(row.node, event);
   };
   row.twist = el("button", {className: "twist", tabIndex: -1, onclick: on_node(open_close)});
-  row.state = el("button", {onclick: on_node((node, event) => act.state(node.path, next_state(node), event))});
-  row.text = el("span", {className: "name"});
+  row.state = el("button", {onclick: on_node((node, event) => act.state(meant(node), next_state(node), event))});
+  row.text = el("span", {className: "names"});
   row.only = el("button", {className: "only", textContent: "only", title: "Isolate: hide all others",
-                           onclick: on_node((node, event) => act.isolate(node.path, event))});
-  row.color = el("input", {type: "color", onclick: event => event.stopPropagation(),
-                           oninput: on_node((node, event) => act.color(node.path, from_hex(row.color.value), event))});
+                           onclick: on_node((node, event) => act.isolate(meant(node), event))});
+  const color = (node, event) => act.color(meant(node), from_hex(row.color.value), event);
+  row.color = el("input", {type: "color", onclick: event => event.stopPropagation(), oninput: on_node(color)});
   row.append(row.twist, row.state, row.text, row.only, row.color);
-  row.onclick = () => select(row.node.path);
-  row.ondblclick = event => act.fit(row.node.path, event);
+  row.onclick = event => select_row(row.node.path, event);
+  row.ondblclick = event => act.fit(meant(row.node), event);
   return row;
+}
+/// The last leg comes first; where the search found it, the legs before follow.
+function name_row(row, {path, match = [0, 0]}, name) {
+  const start = path.length - name.length, from = match.map(at => Math.max(at - start, 0));
+  row.text.replaceChildren(named(name, ...from));
+  if (match[1]) row.text.append(named(path.slice(0, start - 1), ...match.map(at => Math.min(at, start - 1))));
+  row.text.title = path;
 }
 export function draw_tree() {
   const tree = by("tree"), count = Math.ceil(tree.clientHeight / ROW) + 6;
@@ -98,9 +111,9 @@ export function draw_tree() {
     const row = pool[i % count], node = rows[i];
     row.hidden = !node;
     if (!node) continue;
-    const state = state_of(node), name = node.full ? node.path.slice(1) : last_leg(node.path);
+    const state = state_of(node), name = last_leg(node.path);
     Object.assign(row, {node, id: "row-" + i, ariaLevel: String(node.depth + 1),
-      ariaSelected: String(node.path === selected), ariaExpanded: node.leaf ? null : String(node.open)});
+      ariaSelected: String(selection.includes(node.path)), ariaExpanded: node.leaf ? null : String(node.open)});
     row.dataset.path = node.path;
     row.style.top = i * ROW + "px";
     row.style.paddingLeft = 2 + 14 * node.depth + "px";
@@ -109,13 +122,24 @@ export function draw_tree() {
                               ariaLabel: `Open or close ${name}`});
     Object.assign(row.state, {textContent: MARKS[state], ariaLabel: `${name} is ${WORDS[state]}: change`,
                               title: `${WORDS[state]}; a click makes it ${next_state(node)}`});
-    Object.assign(row.text, {textContent: name, title: node.path});
+    name_row(row, node, name);
     row.only.ariaLabel = `Isolate ${name}`;
     row.color.ariaLabel = row.color.title = `Colour of ${name}`;
     if (!is_focused(row.color)) row.color.value = hex(regions.colors[node.low]);
     if (node.path === selected) active = row.id;
   }
   tree.setAttribute("aria-activedescendant", active);
+}
+/// Selects a row. With Ctrl its part is selected besides the others, with Shift all from the row selected before.
+function select_row(path, {shiftKey, ctrlKey, metaKey}) {
+  if (shiftKey && selected !== null) {
+    const [from, to] = [anchor, path].map(wanted => rows.findIndex(node => node.path === wanted));
+    const between = from < 0 ? [] : rows.slice(Math.min(from, to), Math.max(from, to) + 1);
+    return select(...between.map(node => node.path).filter(other => other !== path), path);
+  }
+  anchor = path;
+  if (ctrlKey || metaKey) toggle_selected(path);
+  else select(path);
 }
 function open_close(node, _event, open = !node.open) {
   if (node.leaf || node.open === open) return;
@@ -138,15 +162,15 @@ export function reveal(path) {
 }
 export function tree_key(event) {
   const at = rows.findIndex(node => node.path === selected), node = rows[at], page = pool.length - 7;
-  const go = i => rows.length && select(rows[clamp(i, 0, rows.length - 1)].path);
+  const go = i => rows.length && select_row(rows[clamp(i, 0, rows.length - 1)].path, event);
   const go_up = () => go(Math.max(0, rows.findLastIndex((n, i) => i < at && n.depth < node.depth)));
   const run = {
     ArrowDown: () => go(at + 1), ArrowUp: () => go(at - 1), Home: () => go(0), End: () => go(rows.length - 1),
     PageDown: () => go(at + page), PageUp: () => go(at - page),
     ArrowRight: () => node && (node.open || node.leaf ? go(at + 1) : open_close(node, event, true)),
     ArrowLeft: () => node && (node.open ? open_close(node, event, false) : go_up()),
-    " ": () => node && act.state(node.path, next_state(node), event),
-    Enter: () => node && act.fit(node.path, event),
+    " ": () => node && act.state(selection, next_state(node), event),
+    Enter: () => node && act.fit(selection, event),
   }[event.key];
   if (event.target !== by("tree") || !run || event.ctrlKey || event.metaKey || event.altKey) return;
   event.preventDefault();
