@@ -27,6 +27,20 @@ if BROWSER is None or DRIVER is None:
     print("SKIPPED: there is no chromium (Debian, Ubuntu: apt-get install chromium chromium-driver)")
     sys.exit(0)
 
+
+def axe_source(folder):
+    """The text of axe-core, which npm gets; empty if it cannot."""
+    path = os.path.join(folder, "node_modules", "axe-core", "axe.min.js")
+    try:
+        if not os.path.exists(path):
+            subprocess.run(["npm", "install", "--no-audit", "--no-fund", "--prefix", folder, "axe-core@4.10.3"],
+                           check=True, capture_output=True, timeout=120)
+        with open(path, encoding="utf-8") as file:
+            return file.read()
+    except (OSError, subprocess.SubprocessError):
+        return ""
+
+
 class Browser(unittest.TestCase):
     """One browser and one server for all; each test starts the page anew."""
 
@@ -95,7 +109,8 @@ class Browser(unittest.TestCase):
         overlaps = [line.split() for line in lines if line.startswith("overlap ")]
         self.assertEqual((parts[0][0], page.text("selected-path")), ("/all/front.r", "/all/front.r"))
         cells = page.js("return [...document.querySelectorAll('#end-rows tr')].map(r => [r.className, "
-                        "...[...r.cells].map(c => c.textContent)])")
+                        "...[...r.querySelectorAll('td:not([colspan]), td > div > *, .overlap td')]"
+                        ".map(c => c.textContent)])")
         self.assertEqual([c[1] for c in cells if c[0] == "part"], [p[0].rsplit("/", 1)[1] for p in parts])
         ends = [c[2:] for c in cells if c[0] in ("in", "out")]
         self.assertEqual(len(ends), 2 * len(parts))
@@ -104,7 +119,7 @@ class Browser(unittest.TestCase):
                                         (ends[2 * i + 1], part[2], part[10], part[12])):
                 self.assertAlmostEqual(float(end[0]), float(t), delta=1e-4)
                 self.assertEqual(end[1:], [solid, kind])
-        self.assertEqual([c[2] for c in cells if "gap" in c[0]], ["10 mm"])
+        self.assertEqual([c[1] for c in cells if "gap" in c[0]], ["10 mm"])
         self.assertEqual(len(overlaps), 1)
         (red,) = [c[1] for c in cells if "red" in c[0]]
         for word in (*overlaps[0][1:3], "back.r", "twin.r"):
@@ -264,7 +279,7 @@ class Browser(unittest.TestCase):
                 page.click(*page.screen([80, 45, 40]))
                 for places in (corners, page.js("return corners(bounds()).map(p => on_screen(view.camera, p))")):
                     for x, y in places:
-                        self.assertTrue(-1 <= x <= width and -1 <= y <= height)
+                        self.assertTrue(-1 <= x <= width and -1 <= y <= height, (width, x, y))
                 inside = page.js("return corners(bounds()).map(p => on_screen(view.camera, p)).every(([x, y]) => "
                                  "x > 0 && y > 0 && x < csgrt.size.css_width && y < csgrt.size.css_height)")
                 self.assertTrue(inside, width)
@@ -294,6 +309,93 @@ class Browser(unittest.TestCase):
         finally:
             page.press("toggle-parts")
         self.assertTrue(page.start(self.server.address).id("parts").is_displayed())
+
+    def test_everybody(self):
+        """axe-core finds nothing, borders of controls have a contrast of 3, targets 24 px."""
+        page = self.page
+        axe = axe_source(WORK)
+        if not axe:
+            self.skipTest("there is no npm, or it gets no axe-core")
+        page.press("view-iso").press("toggle-cut").press("add-plane").press("cut-0-slice")
+        page.click(*page.screen([40, 45, 40]))
+        page.press("toggle-save").press("get-command").press("toggle-warnings").press("help-button")
+        for dialog in ("help", None):
+            page.js(axe)
+            found = page.driver.execute_async_script("""
+                const tags = ["wcag2a", "wcag2aa", "wcag21aa", "wcag22aa", "best-practice"], done = arguments[0];
+                axe.run(document, {runOnly: tags}).then(made =>
+                  done(made.violations.map(v => [v.id, v.help, v.nodes.map(n => n.html + n.failureSummary)])))""")
+            self.assertEqual(found, [])
+            if dialog:
+                page.js("document.getElementById(arguments[0]).close()", dialog)
+        # What stands to scale in the bar is in the table below, too.
+        small = page.js("""
+            const light = text => {
+              const rgb = text.match(/[\\d.]+/g).slice(0, 3).map(v => v / 255)
+                .map(v => v <= 0.04045 ? v / 12.92 : ((v + 0.055) / 1.055) ** 2.4);
+              return 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2];
+            };
+            const behind = element => {
+              for (let e = element.parentElement; e; e = e.parentElement) {
+                const color = getComputedStyle(e).backgroundColor;
+                if (!/, 0\\)/.test(color)) return color;
+              }
+            };
+            return [...document.querySelectorAll("button, select, input, label.button")].flatMap(control => {
+              const {width, height} = control.getBoundingClientRect(), style = getComputedStyle(control);
+              if (!width || control.type === "file" || control.closest("#beam")) return [];
+              const name = control.id || control.className || control.textContent, wrong = [];
+              if (width < 24 || height < 24) wrong.push(`${name}: ${width} x ${height}`);
+              const [a, b] = [light(style.borderTopColor), light(behind(control))].sort((a, b) => b - a);
+              const has_border = parseFloat(style.borderTopWidth) && !/, 0\\)/.test(style.borderTopColor);
+              if (has_border && (a + 0.05) / (b + 0.05) < 3)
+                wrong.push(`${name}: border ${style.borderTopColor} on ${behind(control)}`);
+              return wrong;
+            });""")
+        self.assertEqual(small, [])
+
+    def test_keys_reach_everything(self):
+        page = self.page
+        page.click(*self.middle)
+        page.set("show", "depth", "change")
+        for name, key, azimuth in (("show", "3", 270), ("selected-color", "1", 0)):  # what was used has the focus
+            page.js("document.getElementById(arguments[0]).focus()", name)
+            page.keys(key)
+            self.assertEqual(page.view()["camera"]["azimuth"], azimuth)
+        for group, selector in (("tree", "#tree, #tree *"), ("beam", "#beam *"), ("end-rows", "#end-rows *")):
+            self.assertEqual(page.js("return [...document.querySelectorAll(arguments[0])]"
+                                     ".filter(e => e.tabIndex >= 0).length", selector), 1, group)
+        page.js("document.querySelector('#beam button').focus()")
+        page.keys(Keys.ARROW_RIGHT, Keys.ENTER)
+        self.assertEqual(page.text("selected-path"),
+                         page.js("return document.querySelectorAll('#beam button')[1].dataset.path"))
+        page.js("document.querySelector('#end-rows button').focus()")
+        page.keys(Keys.END, Keys.ENTER)
+        self.assertEqual(page.text("selected-path"), "/all/pair/back.r")
+        sets = page.js("return [...document.querySelectorAll('.row:not([hidden])')]"
+                       ".map(r => [r.dataset.path, r.ariaPosInSet, r.ariaSetSize])")
+        self.assertIn(["/all/pair/twin.r", "2", "2"], sets)
+        self.assertIn(["/all", "1", "1"], sets)
+
+    def test_overlaps_are_named(self):
+        page = self.page
+        page.press("toggle-cut").press("add-plane").set("cut-0-distance", "30").press("cut-0-slice")
+        page.wait(lambda: page.js("return !slice.busy && !slice.again && slice.ids !== null"))
+        at = page.js("const box = pane(); return [box.width / 2, box.height / 2]")
+        both = "overlap of /all/pair/back.r and /all/pair/twin.r at 30 "
+        page.mouse("mouseMoved", *at, button="none", on="slice-canvas")
+        page.wait(lambda: page.text("hover").startswith(both))
+        page.mouse("mousePressed", *at, on="slice-canvas", clickCount=1)
+        page.mouse("mouseReleased", *at, on="slice-canvas", clickCount=1)
+        page.wait(lambda: page.js("return selection") == ["/all/pair/back.r", "/all/pair/twin.r"])
+        page.press("slice-close").press("cut-0-remove").set("show", "overlap", "change")
+        middle = page.js("return [csgrt.size.css_width / 2, csgrt.size.css_height / 2]")
+        self.assertEqual(self.named(*middle), "overlap of /all/pair/back.r and /all/pair/twin.r")
+        page.click(*middle)
+        self.assertEqual(page.js("return selection"), ["/all/pair/back.r", "/all/pair/twin.r"])
+        page.keys(Keys.ESCAPE).click(*middle)
+        page.js("select(); document.querySelector('#end-rows .overlap button').click()")
+        self.assertEqual(page.text("selected-path"), "2 parts")
 
     def test_the_tree_and_its_search(self):
         page = self.page
@@ -391,7 +493,7 @@ class Browser(unittest.TestCase):
         self.assertEqual(held(0, 0), -2)
         self.assertEqual(name[str(held(55, 0))], "/all/pair/back.r")
         self.assertEqual(held(0, 80), -1)
-        self.assertIn("overlap", page.text("slice-overlap"))
+        self.assertTrue(page.id("slice-overlap").is_displayed())
         page.mouse("mouseMoved", *at(55, 0), button="none", on="slice-canvas")
         self.assertTrue(page.text("hover").startswith("/all/pair/back.r at 30 "), page.text("hover"))
         before = at(0, 0), page.js("return slice.mm")
@@ -403,6 +505,7 @@ class Browser(unittest.TestCase):
         page.set("cut-0-distance", "45")
         drawn()
         self.assertEqual(name[str(held(0, 0))], "/all/pair/twin.r")
+        self.assertFalse(page.id("slice-overlap").is_displayed())
         page.press("slice-close")
         self.assertFalse(page.id("slice").is_displayed())
 

@@ -2,13 +2,13 @@
 import {remember} from "./acts.mjs";
 import {keep_address} from "./address.mjs";
 import {size} from "./camera.mjs";
-import {by, el, is_focused, named} from "./dom.mjs";
+import {by, el, is_focused, named, rove} from "./dom.mjs";
 import {hook, keep, loop, when_painted} from "./frames.mjs";
 import {last_leg} from "./looks.mjs";
 import {load_model} from "./main.mjs";
 import {pointers} from "./mouse.mjs";
 import {ask, attempt} from "./net.mjs";
-import {clamp, css, dot, hex, minus, number, numbers, union_of} from "./numbers.mjs";
+import {clamp, css, dot, hex, ink_on, minus, number, numbers, union_of} from "./numbers.mjs";
 import {draw_overlay} from "./overlay.mjs";
 import {open_panel} from "./panels.mjs";
 import {color_of, ended, hold, model, path_of, range, regions, selected, selection, view} from "./state.mjs";
@@ -61,6 +61,17 @@ export async function ask_pixel(x, y, brief) {
   if (made.generation !== model.generation) throw new Error("The model has changed: ask again.");
   return made;
 }
+const t_of = ({origin, direction}, point) => dot(minus(point, origin), direction) / dot(direction, direction);
+/// The overlap that is at a point of an answer's ray, or undefined.
+export function overlap_at({overlaps, ray}, point) {
+  const t = t_of(ray, point), most = 1e-6 * (1 + Math.abs(t));
+  return overlaps.find(overlap => (overlap.in ?? -Infinity) <= t + most && (overlap.out ?? Infinity) >= t - most);
+}
+/// The overlap that a pixel shows: the first on its ray in a picture of overlaps, else that of the surface.
+const seen_overlap = made =>
+  view.show === "overlap" ? made.overlaps[0] : made.point && overlap_at(made, made.point);
+export const paths_of = ({regions: ids}) => ids.map(path_of);
+export const overlap_text = overlap => "overlap of " + paths_of(overlap).join(" and ");
 /// Asks and shows the answer. Returns the point that was hit, or null.
 export async function pick(x, y) {
   const begun = performance.now(), made = await attempt("pick", () => ask_pixel(x, y, false));
@@ -68,7 +79,8 @@ export async function pick(x, y) {
   open_panel("answer", true);
   previous = answer?.point ?? previous;
   answer = made;
-  select(...made.region === null ? [] : [path_of(made.region)]);
+  const overlap = view.show === "overlap" && seen_overlap(made);
+  select(...overlap ? paths_of(overlap) : made.region === null ? [] : [path_of(made.region)]);
   draw_answer();
   remember();
   when_painted(() => keep(hook.answers, performance.now() - begun));
@@ -80,11 +92,13 @@ export function draw_answer() {
   if (!answer) return;
   const {partitions: parts, overlaps, point, solid} = answer;
   by("hit-title").textContent = point ? `Last click: ${path_of(answer.region)}` : "Last click";
-  facts("hit-facts", !point ? [["hit", "nothing"]] : [
+  const overlap = seen_overlap(answer);
+  facts("hit-facts", [...overlap ? [["overlap", paths_of(overlap).join(" and ")]] : [],
+    ...!point ? [["hit", "nothing"]] : [
     ["solid", solid ? `${solid.name} (${solid.type})` : "a cut"], ["point", numbers(point)],
     ["distance", `${number(answer.t)} from the ray's start`], ...!answer.normal ? [] :
       [["normal", numbers(answer.normal, 5)],
-       ["ray to normal", `${number(angle_of(answer), 3)} degrees: thicknesses below are along the ray`]]]);
+       ["ray to normal", `${number(angle_of(answer), 3)} degrees: thicknesses below are along the ray`]]]]);
   const apart = point && previous ? minus(point, previous) : null;
   by("measure").hidden = !apart;
   if (apart) by("measure").textContent = `From the point clicked before: ${number(Math.hypot(...apart))} mm ` +
@@ -92,6 +106,7 @@ export function draw_answer() {
   draw_beam(parts, overlaps, point ? answer.t : null);
   by("ends").hidden = !parts.length;
   by("end-rows").replaceChildren(...end_rows(parts, overlaps));
+  rove(by("end-rows"));
   by("shoot").textContent = answer.shoot;
 }
 const angle_of = ({normal, ray}) => Math.acos(clamp(-dot(normal, ray.direction), -1, 1)) * 180 / Math.PI;
@@ -113,7 +128,7 @@ function draw_beam(parts, overlaps, hit) {
     const part = el("button", {title: `${path}\n${thick} mm`, ariaPressed: String(selection.includes(path)),
       ariaLabel: `${path}, ${thick} thick, from ${number(p.in)} to ${number(p.out)}`, onclick: () => select(path)});
     part.dataset.path = path;
-    part.style.background = css(color_of(p.region));
+    Object.assign(part.style, {background: css(color_of(p.region)), color: ink_on(color_of(p.region))});
     part.classList.toggle("open-in", p.in === null);
     part.classList.toggle("open-out", p.out === null);
     part.classList.toggle("off", regions.states[regions.rank[p.region]] === 2);
@@ -121,7 +136,7 @@ function draw_beam(parts, overlaps, hit) {
     return part;
   });
   for (const overlap of overlaps) {
-    marks.push(el("i", {title: `overlap: ${overlap.regions.map(path_of).join(", ")}`}));
+    marks.push(el("i", {title: overlap_text(overlap), onclick: () => select(...paths_of(overlap))}));
     stretch(marks.at(-1), overlap.in, overlap.out);
   }
   if (hit !== null && hit >= low && hit <= high) {
@@ -129,6 +144,7 @@ function draw_beam(parts, overlaps, hit) {
     marks.at(-1).style.left = place(hit) + "%";
   }
   by("beam").replaceChildren(...marks);
+  rove(by("beam"));
   by("beam-low").textContent = parts.length ? number(low) : "";
   by("beam-high").textContent = parts.length ? `${number(high)} mm` : "nothing along this ray";
 }
@@ -136,24 +152,27 @@ function draw_beam(parts, overlaps, hit) {
 /// stands in red before the part in which it begins.
 function end_rows(parts, overlaps) {
   const made = [], left = [...overlaps], add = (className, ...cells) => made.push(el("tr", {className}, ...cells));
-  const cell = (text, className = "", colSpan = 1) => el("td", {textContent: text, title: text, className, colSpan});
+  const cell = (text, className = "") => el("td", {className}, text);
+  const named_cell = name => el("td", {}, name ? named(name) : "-");
+  const line = (name, thickness) => el("td", {colSpan: 4}, el("div", {}, name, el("span", {textContent: thickness})));
   const overlaps_before = end => {
     while (left.length && (left[0].in ?? -Infinity) < end) {
-      const overlap = left.shift(), paths = overlap.regions.map(path_of), names = paths.map(last_leg).join(", ");
-      add("red overlap", cell(`overlap from ${number(overlap.in)} to ${number(overlap.out)}: ${names}`, "", 4));
-      made.at(-1).title = paths.join("\n");
+      const overlap = left.shift(), paths = paths_of(overlap), names = paths.map(last_leg).join(", ");
+      add("red overlap", el("td", {colSpan: 4}, el("button", {
+        textContent: `overlap from ${number(overlap.in)} to ${number(overlap.out)}: ${names}`,
+        title: paths.join("\n"), onclick: () => select(...paths)})));
     }
   };
   const end = (word, t, solid) =>
-    add(word, cell(word), cell(number(t), "number"), cell(solid?.name ?? "-"), cell(solid?.type ?? "-"));
+    add(word, cell(word), cell(number(t), "number"), named_cell(solid?.name), cell(solid?.type ?? "-"));
   parts.forEach((p, i) => {
     const gap = i && p.in !== null && parts[i - 1].out !== null ? p.in - parts[i - 1].out : 0, path = path_of(p.region);
-    if (gap > 0) add("dim gap", cell("gap", "", 3), cell(number(gap, 6) + " mm", "number"));
+    if (gap > 0) add("dim gap", line("gap", number(gap, 6) + " mm"));
     overlaps_before(p.out ?? Infinity);
     const swatch = el("span", {className: "swatch"}), thick = thickness(p);
     swatch.style.background = css(color_of(p.region));
     const name = el("button", {title: path, onclick: () => select(path)}, swatch, named(last_leg(path)));
-    add("part", el("td", {colSpan: 3}, name), cell(thick === null ? "open" : number(thick, 6) + " mm", "number"));
+    add("part", line(name, thick === null ? "open" : number(thick, 6) + " mm"));
     end("in", p.in, p.in_solid);
     end("out", p.out, p.out_solid);
   });
@@ -190,7 +209,7 @@ export async function ask_again({from, to, ...asked}) {
 }
 /// The hit at a point of an answer's ray. It was the first hit before parts were hidden or cut away.
 export function hit_at({partitions, ray}, point) {
-  const t = dot(minus(point, ray.origin), ray.direction), most = 1e-6 * (1 + Math.abs(t));
+  const t = t_of(ray, point), most = 1e-6 * (1 + Math.abs(t));
   const part = partitions.find(p => (p.in ?? -Infinity) <= t + most && (p.out ?? Infinity) > t + most);
   const begins = part && part.in !== null && Math.abs(part.in - t) <= most;
   return part && {point, t, region: part.region, solid: begins ? part.in_solid : null,
@@ -200,8 +219,10 @@ export function hit_at({partitions, ray}, point) {
 export async function ask_hover() {
   if (hover.busy || !hover.place || pointers.size || loop.moving || ended) return;
   hover.busy = true;
-  const place = hover.place, made = await attempt("hover", () => ask_pixel(...place, true));
-  if (made && hover.place) by("hover").textContent = made.region === null ? "" : path_of(made.region);
+  const place = hover.place, made = await attempt("hover", () => ask_pixel(...place, false));
+  const overlap = made && seen_overlap(made);
+  if (made && hover.place)
+    by("hover").textContent = overlap ? overlap_text(overlap) : made.region === null ? "" : path_of(made.region);
   setTimeout(() => {
     hover.busy = false;
     if (hover.place !== place) ask_hover();

@@ -61,6 +61,26 @@ export function fitted(given, box) {
   return {...camera, view_size: 1.06 * Math.max(...needed) || camera.view_size};
 }
 
+/// How far the farthest corner of a box is from the picture's middle: 1 at an edge, more outside.
+export function reach(camera, box) {
+  return Math.max(...corners(box).flatMap(corner => {
+    const [x, y] = on_screen(camera, corner) ?? [Infinity, Infinity];
+    return [Math.abs(2 * x / size.css_width - 1), Math.abs(2 * y / size.css_height - 1)];
+  }));
+}
+/// The camera for a picture that had the size `before`, and has another now. The square in its middle is seen as large
+/// as there is room, and a box that was in view is.
+export function kept_in_view(camera, box, before) {
+  const after = {...size}, part = ({css_width, css_height}) => Math.min(1, css_width / css_height);
+  Object.assign(size, before);
+  const was_in_view = reach(camera, box) <= 1;
+  Object.assign(size, after);
+  let made = {...camera, view_size: camera.view_size * part(before) / part(after)};
+  for (let i = 0; i < 5 && was_in_view && reach(made, box) > 1; i++)
+    made = {...made, view_size: made.view_size * 1.01 * Math.min(2, reach(made, box))};
+  return made;
+}
+
 /// The point of a plane that is nearest the middle of a box.
 export function plane_foot({normal, distance}, box) {
   const middle = middle_of(box);

@@ -1,4 +1,5 @@
 // Elements of the page, and the bar that has its messages.
+import {clamp} from "./numbers.mjs";
 import {name_pieces} from "./search.mjs";
 
 export const by = id => document.getElementById(id);
@@ -20,6 +21,23 @@ export function svg(tag, attributes = {}) {
   const made = document.createElementNS("http://www.w3.org/2000/svg", tag);
   for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, value);
   return made;
+}
+/// Makes the buttons of a group one stop of the Tab key.
+export function rove(group) {
+  [...group.querySelectorAll("button")].forEach((button, i) => { button.tabIndex = i ? -1 : 0; });
+}
+/// Moves the focus within a group of buttons by arrows, Home and End.
+export function rove_by_key(event) {
+  const buttons = [...event.currentTarget.querySelectorAll("button")], at = buttons.indexOf(event.target);
+  const last = buttons.length - 1;
+  const step = {ArrowRight: 1, ArrowDown: 1, ArrowLeft: -1, ArrowUp: -1, Home: -at, End: last - at}[event.key];
+  if (at < 0 || step === undefined || event.ctrlKey || event.metaKey || event.shiftKey) return;
+  event.preventDefault();
+  event.stopPropagation();
+  const next = buttons[clamp(at + step, 0, last)];
+  buttons[at].tabIndex = -1;
+  next.tabIndex = 0;
+  next.focus();
 }
 /// A canvas is cleared by a new size: it gets the size only where it differs.
 export function resize(target, width, height) {

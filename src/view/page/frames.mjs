@@ -12,7 +12,7 @@ import {adapt, encoding_of, note_rate} from "./rates.mjs";
 import {ended, model, view} from "./state.mjs";
 
 export const MOST_SIDE = 8192;
-const REST_MS = 60;
+const REST_MS = 60, BUSY_MS = 300;
 export const loop = {revision: 0, job: null, number: 0, failed: -1, moving: false, rest: 0, divisor: 4, wall: 0,
                      wall_of: 0, deflate: false, rates: [], inputs: [], last_input: 0, waiting: [],
                      shown: {revision: -1, divisor: 0, samples: 0, camera: null}};
@@ -55,11 +55,14 @@ export async function pump() {
   loop.job = Object.assign(job, {
     revision: loop.revision, abort: new AbortController(), camera: view.camera, inputs: loop.inputs.splice(0),
     full_width: size.width, full_height: size.height, sent: performance.now()});
+  const busy = job.samples === 1 && setTimeout(() => { by("busy").hidden = false; }, BUSY_MS);
   await draw(job).then(() => say("frame", ""), error => {
     loop.inputs.unshift(...job.inputs);
     if (error.name !== "AbortError") loop.failed = job.revision;
     report("frame", error);
   });
+  clearTimeout(busy);
+  by("busy").hidden = true;
   loop.job = null;
   wake();
   pump();

@@ -4,7 +4,7 @@ import {checked_view, read_address} from "./address.mjs";
 import {copy, draw_answer, draw_selected} from "./ask.mjs";
 import {size} from "./camera.mjs";
 import {add_plane, build_planes} from "./cut.mjs";
-import {by, el, named, notes, say} from "./dom.mjs";
+import {by, el, named, notes, rove_by_key, say} from "./dom.mjs";
 import {MOST_SIDE, canvas, changed, loop, pump} from "./frames.mjs";
 import {KEYS, MOUSE, run_of, with_selected} from "./keys.mjs";
 import {apply_looks, region_table} from "./looks.mjs";
@@ -12,6 +12,7 @@ import {ask, attempt} from "./net.mjs";
 import {clamp, from_hex} from "./numbers.mjs";
 import {draw_overlay, overlay} from "./overlay.mjs";
 import {SECTIONS, draw_warnings, restore_panels, toggle_panel} from "./panels.mjs";
+import {note_rate} from "./rates.mjs";
 import {copy_link, open_view, save} from "./save.mjs";
 import {open_slice, refit_slice, slice_changed} from "./slice.mjs";
 import {ended, hold, model, range, regions, selection, view} from "./state.mjs";
@@ -83,7 +84,7 @@ function watch_size() {
     pump();
   });
   try { watch.observe(canvas, {box: "device-pixel-content-box"}); } catch { watch.observe(canvas); }
-  new ResizeObserver(slice_changed).observe(by("slice"));
+  new ResizeObserver(slice_changed).observe(by("slice-canvas"));
   new ResizeObserver(draw_tree).observe(by("tree"));
 }
 function connect() {
@@ -113,6 +114,7 @@ function connect() {
   on("search", list_rows, "input");
   on("tree", draw_tree, "scroll");
   on("tree", tree_key, "keydown");
+  for (const group of ["beam", "end-rows"]) on(group, rove_by_key, "keydown");
   on("open-view", event => {
     open_view(event.target.files[0]);
     event.target.value = "";
@@ -131,6 +133,8 @@ function connect() {
     line(keys.flatMap(key => [el("kbd", {textContent: written(key)}), " "]), does)));
 }
 restore_panels();
+for (const {encodedBodySize, responseStart, responseEnd} of performance.getEntriesByType("navigation"))
+  note_rate(loop, encodedBodySize, responseEnd - responseStart);
 connect();
 watch_size();
 load_model().then(look_for_changes);

@@ -12,6 +12,11 @@ export const number = (v, digits = 7) => v == null ? "open" : String(+v.toPrecis
 export const numbers = (v, digits = 7) => v.map(x => number(x, digits)).join("  ");
 export const css = rgb => `rgb(${rgb.map(v => Math.round(255 * v)).join(" ")})`;
 export const hex = rgb => "#" + rgb.map(v => Math.round(255 * v).toString(16).padStart(2, "0")).join("");
+/// Black or white: what is read better on a colour.
+export function ink_on(rgb) {
+  const [r, g, b] = rgb.map(v => v <= 0.04045 ? v / 12.92 : ((v + 0.055) / 1.055) ** 2.4);
+  return 0.2126 * r + 0.7152 * g + 0.0722 * b > 0.179 ? "#000" : "#fff";
+}
 export const from_hex = text => [1, 3, 5].map(i => parseInt(text.slice(i, i + 2), 16) / 255);
 
 export const corners = ({low, high}) =>

@@ -1,22 +1,23 @@
 // Panels, and the warnings in theirs.
 import {act} from "./acts.mjs";
 import {select} from "./ask.mjs";
+import {kept_in_view, size} from "./camera.mjs";
 import {by, el, say} from "./dom.mjs";
 import {canvas, changed} from "./frames.mjs";
 import {draw_overlay} from "./overlay.mjs";
-import {model, regions, view} from "./state.mjs";
+import {bounds, model, regions, view} from "./state.mjs";
 import {draw_tree} from "./tree.mjs";
 
 export const SECTIONS = ["answer", "cut", "warnings", "save"];
 const is_narrow = () => innerWidth <= 900;
-/// Keeps in view what was seen in the middle when a slice or a panel takes of the width. A lower picture crops nothing.
-export function keep_middle(run) {
-  const before = canvas.getBoundingClientRect();
+/// Keeps the model in view when a slice or a panel takes some of the picture's room, or gives it back.
+export function keep_in_view(run) {
+  const before = {...size};
   run();
-  const after = canvas.getBoundingClientRect(), part = ({width, height}) => Math.min(1, width / height);
-  const factor = part(before) / part(after);
-  if (!view || before.width === after.width || factor === 1 || !Number.isFinite(factor)) return;
-  view.camera = {...view.camera, view_size: view.camera.view_size * factor};
+  const {width, height} = canvas.getBoundingClientRect();
+  if (!view || width * height === 0 || width === before.css_width && height === before.css_height) return;
+  Object.assign(size, {css_width: width, css_height: height});
+  view.camera = kept_in_view(view.camera, bounds(), before);
   changed();
 }
 /// Opens or closes a panel. There is room for one in a narrow window.
@@ -24,7 +25,7 @@ export function open_panel(name, open = by(name).hidden) {
   if (by(name).hidden === !open) return;
   for (const other of open && is_narrow() ? ["parts", ...SECTIONS] : [])
     if (other !== name) open_panel(other, false);
-  keep_middle(() => {
+  keep_in_view(() => {
     by(name).hidden = !open;
     by("side").hidden = SECTIONS.every(section => by(section).hidden);
   });

@@ -11,7 +11,7 @@ export function found_in(paths, text) {
   }
   return [...found.values()];
 }
-const TAIL = 8;
+const TAIL = 6;
 /// A name in pieces [text, whether it is part of the match from `from` to `to`]: the head, which is cut short where
 /// room is scarce, and the tail, which stays in sight.
 export function name_pieces(name, from = 0, to = 0) {

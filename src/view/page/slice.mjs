@@ -1,28 +1,36 @@
 // The slice of a plane: a second pane.
 import {keep_address} from "./address.mjs";
-import {select} from "./ask.mjs";
+import {overlap_at, overlap_text, paths_of, select} from "./ask.mjs";
 import {plane_axes, plane_extent, plane_foot, size} from "./camera.mjs";
 import {fill_planes} from "./cut.mjs";
 import {by, resize} from "./dom.mjs";
 import {MOST_SIDE} from "./frames.mjs";
 import {ARROWS} from "./keys.mjs";
 import {wheel_factor} from "./mouse.mjs";
-import {attempt, post} from "./net.mjs";
-import {along, clamp, number, numbers} from "./numbers.mjs";
-import {keep_middle} from "./panels.mjs";
+import {ask, attempt, post} from "./net.mjs";
+import {along, clamp, number, numbers, unit} from "./numbers.mjs";
+import {keep_in_view} from "./panels.mjs";
 import {bounds, color_of, ended, model, path_of, view} from "./state.mjs";
 
 export const slice = {plane: -1, busy: false, again: false, place: [0, 0], mm: 1, ids: null, width: 0, height: 0,
-                      drag: null};
+                      drag: null, hover: null, asks: false};
 const slice_canvas = by("slice-canvas");
-export const pane = () => by("slice").getBoundingClientRect();
+export const pane = () => slice_canvas.getBoundingClientRect();
 export function open_slice(plane) {
   slice.plane = plane;
-  keep_middle(() => { by("slice").hidden = plane < 0; });
-  if (plane >= 0) fit_slice();
+  keep_in_view(() => { by("slice").hidden = plane < 0; });
+  if (plane >= 0) {
+    write_title();
+    fit_slice();
+  }
   fill_planes();
   slice_changed();
   keep_address();
+}
+function write_title() {
+  const {normal, distance} = view.clip[slice.plane];
+  by("slice-title").textContent =
+    `Slice of plane ${slice.plane + 1}: ${numbers(normal, 4)} at ${number(distance, 6)} mm`;
 }
 /// Puts the model's box into the pane.
 export function fit_slice() {
@@ -52,7 +60,7 @@ export async function slice_changed() {
   slice.busy = false;
 }
 async function draw_slice() {
-  const box = pane(), plane = view.clip[slice.plane], {right, up} = plane_axes(plane), title = slice.plane + 1;
+  const box = pane(), plane = view.clip[slice.plane], {right, up} = plane_axes(plane);
   const pixels = length => clamp(Math.round(length * size.width / size.css_width), 1, MOST_SIDE);
   const width = pixels(box.width), height = pixels(box.height), step = v => v * slice.mm * box.height / height;
   const response = await post("slice", {view, center: slice_point(box.width / 2, box.height / 2),
@@ -66,13 +74,32 @@ async function draw_slice() {
   resize(slice_canvas, width, height);
   const image = new ImageData(new Uint8ClampedArray(words.buffer), width, height);
   slice_canvas.getContext("2d").putImageData(image, 0, 0);
-  by("slice-title").textContent =
-    `Slice of plane ${title}: ${numbers(plane.normal, 4)} at ${number(plane.distance, 6)} mm`;
-  by("slice-overlap").textContent = ids.includes(-2) ? "Red: regions overlap." : "";
+  write_title();
+  by("slice-overlap").style.visibility = ids.includes(-2) ? "" : "hidden";
 }
 function slice_id(x, y) {
   const box = pane(), scale = slice.width / box.width, column = Math.floor(x * scale), line = Math.floor(y * scale);
   return column >= 0 && column < slice.width ? slice.ids?.[line * slice.width + column] ?? -1 : -1;
+}
+/// The overlap at a place of the pane, or undefined: a ray through the plane there meets it.
+async function ask_overlap(x, y) {
+  const {normal} = view.clip[slice.plane], center = slice_point(x, y), degrees = 180 / Math.PI;
+  const camera = {azimuth: Math.atan2(normal[1], normal[0]) * degrees, elevation: Math.asin(unit(normal)[2]) * degrees,
+                  perspective: 0, center, view_size: 1};
+  const made = await attempt("slice", () =>
+    ask("pick", {view: {...view, camera, clip: []}, width: 1, height: 1, x: 0, y: 0}));
+  return made?.generation === model.generation ? overlap_at(made, center) : undefined;
+}
+/// Names what is under the mouse; what overlaps is asked for, one question at a time.
+async function hover_slice(x, y) {
+  const id = slice_id(x, y), at = ` at ${numbers(slice_point(x, y), 6)}`;
+  by("hover").textContent = (id >= 0 ? path_of(id) : id === -2 ? "several regions overlap" : "nothing") + at;
+  slice.hover = [x, y];
+  if (id !== -2 || slice.asks) return;
+  slice.asks = true;
+  const overlap = await ask_overlap(x, y);
+  slice.asks = false;
+  if (slice.hover[0] === x && slice.hover[1] === y && overlap) by("hover").textContent = overlap_text(overlap) + at;
 }
 /// Moves by CSS pixels, then zooms. The point x CSS pixels to the right of the middle and y upward stays.
 function move_slice(dx, dy, factor = 1, x = 0, y = 0) {
@@ -92,14 +119,16 @@ slice_canvas.addEventListener("pointermove", ({offsetX: x, offsetY: y}) => {
     slice.drag = {x, y, moved: slice.drag.moved + Math.hypot(dx, dy)};
     move_slice(dx, dy);
   } else if (slice.plane >= 0) {
-    const id = slice_id(x, y), what = id >= 0 ? path_of(id) : id === -2 ? "several regions overlap" : "nothing";
-    by("hover").textContent = `${what} at ${numbers(slice_point(x, y), 6)}`;
+    hover_slice(x, y);
   }
 });
-slice_canvas.addEventListener("pointerup", event => {
-  const id = slice_id(event.offsetX, event.offsetY);
-  if (slice.drag?.moved < 4 && id >= 0) select(path_of(id));
+slice_canvas.addEventListener("pointerup", async ({offsetX: x, offsetY: y}) => {
+  const id = slice_id(x, y), is_click = slice.drag?.moved < 4;
   slice.drag = null;
+  if (!is_click || id === -1) return;
+  const overlap = id === -2 && await ask_overlap(x, y);
+  if (overlap) select(...paths_of(overlap));
+  else if (id >= 0) select(path_of(id));
 });
 slice_canvas.addEventListener("wheel", event => {
   event.preventDefault();

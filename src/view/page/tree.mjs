@@ -23,7 +23,9 @@ function children_of(node) {
     node.children.push({...new_node(path, node.depth + 1, i, high, end < 0), first});
     i = high;
   }
-  return node.children.sort((a, b) => a.first - b.first);
+  node.children.sort((a, b) => a.first - b.first);
+  node.children.forEach((child, i, all) => Object.assign(child, {place: i + 1, of: all.length}));
+  return node.children;
 }
 /// Opens what was open before; at first two levels.
 export function build_tree() {
@@ -57,8 +59,8 @@ export function list_rows() {
 }
 function found(text) {
   if (search.text === text && search.paths === regions.paths) return search.nodes;
-  const nodes = found_in(regions.paths, text).map(({path, leaf, at}) =>
-    ({...new_node(path, 0, ...range(path), leaf), match: [at, at + text.length]}));
+  const nodes = found_in(regions.paths, text).map(({path, leaf, at}, i, {length}) =>
+    ({place: i + 1, of: length, ...new_node(path, 0, ...range(path), leaf), match: [at, at + text.length]}));
   search = {text, paths: regions.paths, nodes};
   return search.nodes;
 }
@@ -81,12 +83,14 @@ function make_row() {
     run(row.node, event);
   };
   row.twist = el("button", {className: "twist", tabIndex: -1, onclick: on_node(open_close)});
-  row.state = el("button", {onclick: on_node((node, event) => act.state(meant(node), next_state(node), event))});
+  const change = (node, event) => act.state(meant(node), next_state(node), event);
+  row.state = el("button", {tabIndex: -1, onclick: on_node(change)});
   row.text = el("span", {className: "names"});
-  row.only = el("button", {className: "only", textContent: "only", title: "Isolate: hide all others",
+  row.only = el("button", {className: "only", tabIndex: -1, textContent: "only", title: "Isolate: hide all others",
                            onclick: on_node((node, event) => act.isolate(meant(node), event))});
   const color = (node, event) => act.color(meant(node), from_hex(row.color.value), event);
-  row.color = el("input", {type: "color", onclick: event => event.stopPropagation(), oninput: on_node(color)});
+  row.color = el("input", {type: "color", tabIndex: -1, onclick: event => event.stopPropagation(),
+                           oninput: on_node(color)});
   row.append(row.twist, row.state, row.text, row.only, row.color);
   row.onclick = event => select_row(row.node.path, event);
   row.ondblclick = event => act.fit(meant(row.node), event);
@@ -113,7 +117,8 @@ export function draw_tree() {
     if (!node) continue;
     const state = state_of(node), name = last_leg(node.path);
     Object.assign(row, {node, id: "row-" + i, ariaLevel: String(node.depth + 1),
-      ariaSelected: String(selection.includes(node.path)), ariaExpanded: node.leaf ? null : String(node.open)});
+      ariaSelected: String(selection.includes(node.path)), ariaExpanded: node.leaf ? null : String(node.open),
+      ariaSetSize: String(node.of), ariaPosInSet: String(node.place)});
     row.dataset.path = node.path;
     row.style.top = i * ROW + "px";
     row.style.paddingLeft = 2 + 14 * node.depth + "px";
@@ -128,7 +133,8 @@ export function draw_tree() {
     if (!is_focused(row.color)) row.color.value = hex(regions.colors[node.low]);
     if (node.path === selected) active = row.id;
   }
-  tree.setAttribute("aria-activedescendant", active);
+  if (active) tree.setAttribute("aria-activedescendant", active);
+  else tree.removeAttribute("aria-activedescendant");
 }
 /// Selects a row. With Ctrl its part is selected besides the others, with Shift all from the row selected before.
 function select_row(path, {shiftKey, ctrlKey, metaKey}) {
