@@ -41,7 +41,8 @@ const char* sentence_of(int status) {
         case http::large_head:
             return "refused: the head of the request has more than 16 kB";
         default:
-            return "refused: the address that csgrt printed is needed, whole";
+            return "refused: the address that csgrt view printed is needed, whole, with the slash at its end. Each "
+                   "csgrt view has an address of its own, and no other after it has ended";
     }
 }
 
@@ -388,10 +389,16 @@ void Server::advance(Connection& connection, std::string_view more) try {
     connection.is_over = true;
 }
 
-/// Sends a refusal. Further bytes of the client are discarded until it has seen the refusal.
+/// Sends a refusal, as a page to who types an address. Further bytes of the client are discarded until it has seen the
+/// refusal.
 void Server::refuse(Connection& connection, int status) {
-    const std::string why = std::string(R"({"error":")") + sentence_of(status) + "\"}",
-                      text = head_of(status, json_type, why.size(), true) + why;
+    const bool is_page = connection.head.method == "GET";
+    const std::string sentence = sentence_of(status);
+    const std::string why = is_page
+                                ? "<!doctype html><html lang=\"en\"><meta charset=\"utf-8\"><title>csgrt</title><p>" +
+                                      sentence + ".</p></html>"
+                                : R"({"error":")" + sentence + "\"}";
+    const std::string text = head_of(status, is_page ? page_type : json_type, why.size(), true) + why;
     static_cast<void>(send(connection.socket, text.data(), text.size(), MSG_NOSIGNAL));
     shutdown(connection.socket, SHUT_WR);
     connection.phase = Phase::refused;

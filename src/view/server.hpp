@@ -23,6 +23,7 @@
 namespace csgrt {
 
 inline constexpr const char* json_type = "application/json; charset=utf-8";
+inline constexpr const char* page_type = "text/html; charset=utf-8";
 
 /// Owns a file descriptor of the system, or none (-1).
 class Handle {

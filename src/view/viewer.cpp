@@ -121,7 +121,7 @@ struct Viewer::Impl {
     void answer(Exchange& exchange) const {
         constexpr std::string_view folder = "api/";
         const std::string_view name = std::string_view(exchange.head.path).substr(guard.root().size());
-        if (name.empty()) return exchange.answer(http::good, "text/html; charset=utf-8", {page_html()});
+        if (name.empty()) return exchange.answer(http::good, page_type, {page_html()});
         const auto refuse = [&](int status, const char* why) { answer_json(exchange, {{"error", why}}, status); };
         const auto found = answers.find(name.substr(folder.size()));
         if (found == answers.end()) return refuse(http::not_found, "refused: nothing has this name");

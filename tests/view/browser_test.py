@@ -745,6 +745,12 @@ class Browser(unittest.TestCase):
         self.assertEqual(server.process.wait(10), 0)
         server.close()
 
+    def test_another_address_is_answered_by_a_sentence(self):
+        for address in (self.server.address[:-1], self.server.address[:-5] + "0000/"):
+            self.driver.get(address)
+            said = self.driver.find_element("tag name", "body").text
+            self.assertTrue(said.startswith("refused: the address"), said)
+
     def test_a_server_that_is_gone_is_said(self):
         with self.page_of(self.scene) as page:
             picture = page.picture()

@@ -9,11 +9,13 @@ from page import Page, Server, new_browser
 
 def take_screenshots(csgrt, root, work, folder):
     os.makedirs(folder, exist_ok=True)
-    driver = new_browser(work, 1280, 860)
+    driver = new_browser(work)
     os.chdir(root)  # the page names the scene as it was given
 
-    def shot(scene, name, act):
+    def shot(scene, name, act, width, height):
         server = Server(csgrt, os.path.join("scenes", scene))
+        driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", {
+            "width": width, "height": height, "deviceScaleFactor": 1, "mobile": False})
         try:
             page = Page(driver, server.address)
             act(page)
@@ -38,9 +40,10 @@ def take_screenshots(csgrt, root, work, folder):
         page.set("cut-0-distance", "10").press("cut-0-slice").press("fit").click(*page.screen([10, 50, 50]))
 
     try:
-        shot("operators.json", "viewer-ask.png", ask)
-        shot("materials.json", "viewer-cut.png", cut)
-        shot("overlap.json", "viewer-overlap.png", overlap)
+        shot("operators.json", "viewer-ask.png", ask, 1600, 1000)
+        shot("materials.json", "viewer-cut.png", cut, 1024, 700)
+        shot("overlap.json", "viewer-overlap.png", overlap, 1024, 700)
+        shot("operators.json", "viewer-narrow.png", ask, 390, 844)
     finally:
         driver.quit()
 

@@ -392,6 +392,12 @@ TEST_CASE("view: nobody else gets in", "[view][promise:page]") {
     const auto get = [&](const std::string& path) { return *page.connect().ask("GET", path); };
     CHECK(get(model).status == 405);
     CHECK(get("/").status == 404);
+    const std::string root = page.root();
+    for (const std::string& path : {root.substr(0, root.size() - 1), "/" + std::string(32, '0') + "/"}) {
+        const auto said = get(path);
+        CHECK(said.headers.at("content-type").starts_with("text/html"));
+        CHECK_THAT(said.body, ContainsSubstring("with the slash at its end") && !ContainsSubstring("{"));
+    }
     CHECK(get(page.root()).body.find("<html") != std::string::npos);
     CHECK(get(page.root()).headers["content-security-policy"].starts_with("default-src 'none'"));
 

@@ -10,7 +10,8 @@ export async function post(name, body, signal) {
   const request = {method: "POST", signal, headers: {"Content-Type": "application/json"}, body: JSON.stringify(body)};
   const response = await fetch("api/" + name, request).catch(error => {
     if (error.name === "AbortError") throw error;
-    say("server", "csgrt does not answer. The page shows what was drawn last.");
+    say("server", "csgrt does not answer: it may have ended, or the network may be down. The page shows what was " +
+        "drawn last. A csgrt view that is started again prints a new address.");
     throw Object.assign(new Error("csgrt does not answer."), {gone: true});
   });
   if (response.ok) return response;
