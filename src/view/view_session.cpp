@@ -127,12 +127,9 @@ ViewSession::ViewSession(Model model, const Settings& settings, ViewerOptions op
     : options_(std::move(options)),
       methods_(options_text(Settings{.precision = settings.precision, .display_shading = settings.display_shading})),
       current_{.base = model, .paths = paths_of(model)},
-      renderer_(model, [&] {
-          Settings own = settings;
-          own.progress = [this](double) { return !wanted_ || (*wanted_)(); };
-          return own;
-      }()) {
-    device_ = renderer_.statistics().device;
+      settings_(settings) {
+    make_renderer(quick_, model);
+    device_ = quick_.renderer->statistics().device;
     pixel_pool_.reserve(most_pooled);
 }
 
@@ -240,23 +237,32 @@ ViewSession::EditedModel ViewSession::model_with(const std::vector<Look>& looks)
     return {edited.front().second, generation};
 }
 
-bool ViewSession::with_renderer(const Model& model, const std::function<bool()>& is_wanted,
-                                const std::function<void()>& draw) {
-    std::unique_lock lock(drawing_, std::defer_lock);
+void ViewSession::make_renderer(Drawer& drawer, const Model& model) {
+    Settings own = settings_;
+    own.progress = [&drawer](double) { return !drawer.wanted || (*drawer.wanted)(); };
+    drawer.renderer.emplace(model, own);
+}
+
+bool ViewSession::draw_with(Drawer& drawer, const Model& model, const std::function<bool()>& is_wanted,
+                            const std::function<void(Renderer&)>& draw) {
+    std::unique_lock lock(drawer.mutex, std::defer_lock);
     if (!take(lock, is_wanted)) return false;
     struct Wanted {
         const std::function<bool()>*& by_renderer;
         ~Wanted() { by_renderer = nullptr; }
-    } wanted{wanted_ = &is_wanted};
+    } wanted{drawer.wanted = &is_wanted};
     try {
-        renderer_.set_model(model);
-        draw();
+        if (drawer.renderer)
+            drawer.renderer->set_model(model);
+        else
+            make_renderer(drawer, model);
+        draw(*drawer.renderer);
     } catch (const Error& error) {
         if (error.status() != Status::interrupted) throw;
         return false;
     }
     const std::lock_guard current(current_mutex_);
-    device_ = renderer_.statistics().device;
+    device_ = drawer.renderer->statistics().device;
     return true;
 }
 
@@ -292,11 +298,12 @@ void ViewSession::frame(const Request& request, const Client& client) {
                      {"generation", generation},   {"encoding", deflates ? "deflate" : "raw"}};
         std::vector<std::uint32_t>& pixels = memory.pixels;
         pixels.resize(count);
-        if (!with_renderer(model, is_newest, [&] {
-                renderer_.render(page.view, framebuffer_);
-                head["draw_ms"] = renderer_.statistics().ms.frame;
-                head["device"] = renderer_.statistics().device;
-                paint(framebuffer_.image(), page.show, pixels);
+        Drawer& drawer = page.view.samples > 1 ? slow_ : quick_;
+        if (!draw_with(drawer, model, is_newest, [&](Renderer& renderer) {
+                renderer.render(page.view, drawer.framebuffer);
+                head["draw_ms"] = renderer.statistics().ms.frame;
+                head["device"] = renderer.statistics().device;
+                paint(drawer.framebuffer.image(), page.show, pixels);
             }))
             return send(cancelled);
         if (deflates) return send(head, deflated(pixels));
@@ -357,7 +364,7 @@ void ViewSession::slice(const Request& request, const Client& client) {
     const AnswerMemory memory(*this, sizeof(std::int32_t) * static_cast<std::size_t>(slice.width) * slice.height,
                               client.is_wanted);
     Array<std::int32_t> ids;
-    if (!memory || !with_renderer(model, client.is_wanted, [&] { renderer_.slice(slice, ids); })) return;
+    if (!memory || !draw_with(quick_, model, client.is_wanted, [&](Renderer& by) { by.slice(slice, ids); })) return;
     client.send({{reinterpret_cast<const char*>(ids.data()), ids.size() * sizeof ids.data()[0]}}, 0);
 }
 
@@ -369,9 +376,9 @@ void ViewSession::exr(const Request& request, const Client& client) {
     std::unique_lock alone(exporting_, std::defer_lock);  // a large image takes gigabytes
     if (!take(alone, client.is_wanted)) return;
     Image image;
-    if (!with_renderer(model_with(page.looks).model, client.is_wanted, [&] {
-            image = renderer_.render(page.view);
-            renderer_.name_pixels(image);
+    if (!draw_with(slow_, model_with(page.looks).model, client.is_wanted, [&](Renderer& renderer) {
+            image = renderer.render(page.view);
+            renderer.name_pixels(image);
         }))
         return;
     image.attributes["csgrt:command"] = picture_command(page);

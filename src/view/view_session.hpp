@@ -9,6 +9,7 @@
 #include <list>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -71,9 +72,18 @@ private:
     };
     std::string picture_command(const PageView& page) const;
     EditedModel model_with(const std::vector<Look>& looks);
-    /// Waits until nothing else draws, gives the Renderer the model and calls draw(). False: is_wanted() ended the wait
-    /// or the drawing.
-    bool with_renderer(const Model& model, const std::function<bool()>& is_wanted, const std::function<void()>& draw);
+    /// A Renderer, which draws one picture at a time.
+    struct Drawer {
+        std::timed_mutex mutex = {};
+        const std::function<bool()>* wanted = nullptr;  ///< whether what is drawn now is still wanted
+        Framebuffer framebuffer = {};
+        std::optional<Renderer> renderer = {};
+    };
+    void make_renderer(Drawer& drawer, const Model& model);
+    /// Waits until the drawer draws nothing else, gives its Renderer the model and calls draw(). False: is_wanted()
+    /// ended the wait or the drawing.
+    bool draw_with(Drawer& drawer, const Model& model, const std::function<bool()>& is_wanted,
+                   const std::function<void(Renderer&)>& draw);
 
     /// Memory for an answer while the answer is made and sent. All such memory together is at most most_answer_bytes,
     /// except that one answer may always be made. Pixels go back to `pixel_pool_` for the next answer.
@@ -103,10 +113,11 @@ private:
     std::vector<std::vector<std::uint32_t>> pixel_pool_;
     std::size_t answer_bytes_ = 0;
 
-    std::timed_mutex exporting_, drawing_;
-    const std::function<bool()>* wanted_ = nullptr;  ///< whether what is drawn now is still wanted
-    Framebuffer framebuffer_;
-    Renderer renderer_;
+    std::timed_mutex exporting_;
+    const Settings settings_;
+    /// Pictures of one ray a pixel, and slices; the others, which take long. The second Renderer is made when it is
+    /// needed first.
+    Drawer quick_, slow_;
 };
 
 }  // namespace csgrt

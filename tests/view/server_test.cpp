@@ -251,6 +251,22 @@ TEST_CASE("view: the newest frame of a page ends those before it, another page's
     CHECK(page.frame(quick).pixels.size() == 4 * width * height);
 }
 
+TEST_CASE("view: a page that refines its picture keeps no other page waiting", "[view][promise:page]") {
+    auto page = std::make_unique<PageClient>(operators());
+    const json view = page->ask("model")["view"];
+    std::thread refining([&client = *page, &view] {
+        client.frame({{"view", view}, {"width", 2048}, {"height", 2048}, {"samples", 256}, {"page", "refines"}});
+    });
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    for (int number = 1; number < 4; ++number) {
+        const json quick = {{"view", view},    {"width", 64},      {"height", 64},     {"samples", 1},
+                            {"page", "other"}, {"number", number}, {"encoding", "raw"}};
+        CHECK(page->connect(10'000).ask("POST", page->root() + "api/frame", quick.dump()));  // refining takes minutes
+    }
+    page->ask("end");
+    refining.join();
+}
+
 TEST_CASE("view: the frame of a client that is gone ends", "[view]") {
     const PageClient page(operators());
     const json slow = {{"view", page.ask("model")["view"]},
