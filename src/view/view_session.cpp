@@ -85,21 +85,32 @@ bool leads_somewhere(const std::vector<std::string>& paths, const std::string& p
     }();
 }
 
+/// The looks, with those of "/" given to all top objects: an Edit and the command know no path of all.
+std::vector<Look> of_objects(const std::vector<Look>& looks, const std::vector<std::string>& paths) {
+    std::vector<Look> all;
+    for (const Look& look : looks) {
+        if (look.path != "/") {
+            all.push_back(look);
+            continue;
+        }
+        Look of_top = look;
+        for (const std::string& path : paths)
+            if (of_top.path != path.substr(0, path.find('/', 1))) {
+                of_top.path = path.substr(0, path.find('/', 1));
+                all.push_back(of_top);
+            }
+    }
+    return all;
+}
+
 /// Each pixel's difference from the pixel before, compressed. Neighbours are alike, so that the differences are small.
-/// zlib's fastest level takes less time than the network that this is meant for.
 std::string deflated(const std::vector<std::uint32_t>& pixels) {
     const std::size_t size = pixels.size() * sizeof pixels[0];
     std::string differences(size, '\0');
     const auto* const bytes = reinterpret_cast<const unsigned char*>(pixels.data());
     for (std::size_t i = 0; i < size; ++i)
         differences[i] = static_cast<char>(i < 4 ? bytes[i] : bytes[i] - bytes[i - 4]);
-    uLongf length = compressBound(size);
-    std::string packed(length, '\0');
-    if (compress2(reinterpret_cast<Bytef*>(packed.data()), &length, reinterpret_cast<const Bytef*>(differences.data()),
-                  size, Z_BEST_SPEED) != Z_OK)
-        throw std::bad_alloc();
-    packed.resize(length);
-    return packed;
+    return compressed(differences);
 }
 
 std::string little_endian(std::uint32_t value) {
@@ -122,6 +133,16 @@ bool take(std::unique_lock<std::timed_mutex>& lock, const std::function<bool()>&
 }
 
 }  // namespace
+
+std::string compressed(std::string_view bytes) {
+    uLongf length = compressBound(bytes.size());
+    std::string packed(length, '\0');
+    if (compress2(reinterpret_cast<Bytef*>(packed.data()), &length, reinterpret_cast<const Bytef*>(bytes.data()),
+                  bytes.size(), Z_BEST_SPEED) != Z_OK)
+        throw std::bad_alloc();
+    packed.resize(length);
+    return packed;
+}
 
 ViewSession::ViewSession(Model model, const Settings& settings, ViewerOptions options)
     : options_(std::move(options)),
@@ -227,7 +248,7 @@ ViewSession::EditedModel ViewSession::model_with(const std::vector<Look>& looks)
         return {found->second, generation};
     }
     Edit edit(current_.base);
-    for (const Look& look : looks) {
+    for (const Look& look : of_objects(looks, current_.paths)) {
         if (!leads_somewhere(current_.paths, look.path)) continue;  // the region was in another version of the file
         if (look.state) edit.set_state(look.path, *look.state);
         if (look.color) edit.set_color(look.path, *look.color);
@@ -350,7 +371,10 @@ Json ViewSession::pick(const Request& request) {
 std::string ViewSession::picture_command(const PageView& page) const {
     View written = page.view;
     written.every_partition = true;  // in a command, the file's type chooses whether to compute them
-    return "csgrt " + options_.command + methods_ + drawing_options(written, page.looks);
+    return "csgrt " + options_.command + methods_ + drawing_options(written, [&] {
+               const std::lock_guard lock(current_mutex_);
+               return of_objects(page.looks, current_.paths);
+           }());
 }
 
 Json ViewSession::command(const Request& request) const {

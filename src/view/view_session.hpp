@@ -31,6 +31,9 @@ struct Client {
     std::function<void(std::string_view)> send_more;
 };
 
+/// Bytes in zlib's format. The fastest level takes less time than the networks that need it.
+std::string compressed(std::string_view bytes);
+
 /// The session answers the requests of pages. Any thread may call any function. src/view/page/ says which members a
 /// request and an answer have.
 class ViewSession {

@@ -94,7 +94,12 @@ struct Viewer::Impl {
                 answer_json(exchange, make(request));
             };
         };
-        answer_by("model", [this](const Request&) { return session.model(); });
+        answers["model"] = [this](const Request& request, Exchange& exchange) {
+            const Json model = session.model();
+            if (!request.has("encoding")) return answer_json(exchange, model);
+            const std::string text = model.dump(-1, ' ', false, Json::error_handler_t::replace);
+            exchange.answer(http::good, "application/octet-stream", {compressed(text)});
+        };
         answer_by("status", [this](const Request&) { return session.status(); });
         answer_by("pick", [this](const Request& request) { return session.pick(request); });
         answer_by("command", [this](const Request& request) { return session.command(request); });

@@ -181,7 +181,7 @@ class Browser(unittest.TestCase):
                             [page.color(edge[0] + d - 12, edge[1]) for d in range(-3, 4)])  # an outline
         self.assertEqual(self.named(*at), "/all/pair/twin.r")
         page.press("selected-isolate")
-        self.assertEqual(page.view()["looks"], [{"path": "/all", "state": "hidden"},
+        self.assertEqual(page.view()["looks"], [{"path": "/", "state": "hidden"},
                                                 {"path": "/all/front.r", "state": "shown"}])
         self.assertEqual(self.named(*page.screen([40, 55, 0])), "")  # back.r is hidden
         page.press("show-all")
@@ -231,7 +231,7 @@ class Browser(unittest.TestCase):
         self.assertEqual(page.view()["looks"], [{"path": "/all/front.r", "state": "hidden"},
                                                 {"path": "/all/pair/back.r", "state": "hidden"}])
         page.press("selected-isolate")
-        self.assertEqual(page.view()["looks"], [{"path": "/all", "state": "hidden"},
+        self.assertEqual(page.view()["looks"], [{"path": "/", "state": "hidden"},
                                                 {"path": "/all/front.r", "state": "shown"},
                                                 {"path": "/all/pair/back.r", "state": "shown"}])
         page.press("show-all").id("tree").send_keys(Keys.HOME)

@@ -80,6 +80,14 @@ TEST_CASE("view: a frame has the bytes of the Renderer's picture, packed or not"
     request["encoding"] = "deflate";
     CHECK(inflated(page.frame(request).pixels, 4 * width * height) == display_bytes(renderer, view_of(view)));
 
+    const std::string text = page.post("model", json::object())->body;
+    const std::string packed = page.post("model", {{"encoding", "deflate"}})->body;
+    std::string unpacked(text.size(), '\0');
+    uLongf length = unpacked.size();
+    CHECK(uncompress(reinterpret_cast<Bytef*>(unpacked.data()), &length, reinterpret_cast<const Bytef*>(packed.data()),
+                     packed.size()) == Z_OK);
+    CHECK((unpacked == text && packed.size() < text.size() / 2));
+
     request["samples"] = 16;
     request["encoding"] = "raw";
     View sampled = view_of(view);
@@ -98,6 +106,13 @@ TEST_CASE("view: a frame has the bytes of the Renderer's picture, packed or not"
     renderer.set_model(
         Edit(model).set_state("/operators/union", State::hidden).set_color("/operators", {0, 0.5, 1}).commit());
     CHECK(page.frame(sized(view)).pixels == display_bytes(renderer, cut));
+
+    view["looks"] = {{{"path", "/"}, {"state", "hidden"}}, {{"path", "/operators/union"}, {"state", "shown"}}};
+    renderer.set_model(
+        Edit(model).set_state("/operators", State::hidden).set_state("/operators/union", State::shown).commit());
+    CHECK(page.frame(sized(view)).pixels == display_bytes(renderer, cut));
+    CHECK_THAT(page.ask("command", sized(view))["command"].get<std::string>(),
+               ContainsSubstring("--hide /operators --show /operators/union"));
 }
 
 TEST_CASE("view: a scene's camera by its eye is shown from there", "[view]") {

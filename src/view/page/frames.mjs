@@ -6,7 +6,7 @@ import {size} from "./camera.mjs";
 import {by, resize, say} from "./dom.mjs";
 import {load_model} from "./main.mjs";
 import {wheel} from "./mouse.mjs";
-import {page_id, post, report} from "./net.mjs";
+import {decompressed, page_id, post, report} from "./net.mjs";
 import {draw_overlay} from "./overlay.mjs";
 import {adapt, encoding_of, note_rate} from "./rates.mjs";
 import {ended, model, view} from "./state.mjs";
@@ -98,8 +98,7 @@ async function read_frame(response) {
 }
 /// Pixels from zlib's format, four bytes at a time. Each byte has the byte four before it subtracted.
 async function inflated(bytes) {
-  const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"));
-  const words = new Uint32Array(await new Response(stream).arrayBuffer());
+  const words = new Uint32Array(await decompressed(new Blob([bytes]).stream()).arrayBuffer());
   for (let i = 1, a = words[0]; i < words.length; i++) {
     const b = words[i];
     words[i] = a = ((a & 0x7f7f7f7f) + (b & 0x7f7f7f7f)) ^ ((a ^ b) & 0x80808080);

@@ -2,7 +2,7 @@
 
 export const STATES = ["shown", "ghost", "hidden"];
 
-export const covers = (path, other) => other === path || other.startsWith(path + "/");
+export const covers = (path, other) => path === "/" || other === path || other.startsWith(path + "/");
 export const last_leg = path => path.slice(path.lastIndexOf("/") + 1);
 
 /// A table of regions as the server lists them: {path, state, color, low, high}, with `id`, their place in the list.
@@ -25,8 +25,9 @@ function lower_bound(paths, path) {
   }
   return low;
 }
-/// Which of the sorted paths a path means: all below it, or itself.
+/// Which of the sorted paths a path means: all below it, or itself; "/" means all.
 export function range_of(paths, path) {
+  if (path === "/") return [0, paths.length];
   const low = lower_bound(paths, path + "/"), high = lower_bound(paths, path + "0");  // 0 comes after /
   if (low < high) return [low, high];
   const at = lower_bound(paths, path);
@@ -78,16 +79,7 @@ export function with_looks(table, looks, paths, member, value) {
 }
 /// The looks that give all regions a state, and keep their colours.
 export const with_state_of_all = (table, looks, state) =>
-  with_looks(table, without(looks, new Set(["/"]), "state"), top_paths(table), "state", state);
-/// The paths of one leg.
-function top_paths({paths}) {
-  const tops = [];
-  for (const path of paths) {
-    const end = path.indexOf("/", 1), top = end < 0 ? path : path.slice(0, end);
-    if (tops.at(-1) !== top) tops.push(top);
-  }
-  return tops;
-}
+  with_looks(table, without(looks, new Set(["/"]), "state"), ["/"], "state", state);
 /// The paths that lead to no region.
 export const lost_paths = ({paths}, given) => given.filter(path => {
   const [low, high] = range_of(paths, path);

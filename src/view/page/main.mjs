@@ -8,7 +8,7 @@ import {by, el, named, notes, rove_by_key, say} from "./dom.mjs";
 import {MOST_SIDE, canvas, changed, loop, pump} from "./frames.mjs";
 import {KEYS, MOUSE, run_of, with_selected} from "./keys.mjs";
 import {apply_looks, region_table} from "./looks.mjs";
-import {ask, attempt} from "./net.mjs";
+import {ask, ask_model, attempt} from "./net.mjs";
 import {clamp, from_hex} from "./numbers.mjs";
 import {draw_overlay, overlay} from "./overlay.mjs";
 import {SECTIONS, draw_warnings, restore_panels, toggle_panel} from "./panels.mjs";
@@ -19,7 +19,7 @@ import {ended, hold, model, range, regions, selection, view} from "./state.mjs";
 import {build_tree, draw_tree, list_rows, tree_key} from "./tree.mjs";
 
 export async function load_model() {
-  const made = await attempt("model", () => ask("model", {}));
+  const made = await attempt("model", () => ask_model(loop.deflate));
   if (!made || made.generation === model?.generation) return;
   const is_first = !model;
   hold({model: made, regions: region_table(made.regions)});
@@ -133,8 +133,11 @@ function connect() {
     line(keys.flatMap(key => [el("kbd", {textContent: written(key)}), " "]), does)));
 }
 restore_panels();
-for (const {encodedBodySize, responseStart, responseEnd} of performance.getEntriesByType("navigation"))
-  note_rate(loop, encodedBodySize, responseEnd - responseStart);
 connect();
 watch_size();
-load_model().then(look_for_changes);
+window.addEventListener("load", async () => {
+  for (const {encodedBodySize, responseStart, responseEnd} of performance.getEntriesByType("navigation"))
+    note_rate(loop, encodedBodySize, responseEnd - responseStart);
+  await load_model();
+  look_for_changes();
+});

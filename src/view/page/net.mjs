@@ -19,6 +19,11 @@ export async function post(name, body, signal) {
   throw new Error(said.error ?? `csgrt answered ${name} with status ${response.status}.`);
 }
 export const ask = async (name, body) => (await post(name, body)).json();
+/// A body in zlib's format, as the response that it stands for.
+export const decompressed = stream => new Response(stream.pipeThrough(new DecompressionStream("deflate")));
+/// The model. Its table of parts comes compressed on a slow link.
+export const ask_model = async is_slow =>
+  is_slow ? decompressed((await post("model", {encoding: "deflate"})).body).json() : ask("model", {});
 /// Says in the bar what failed, but not what was cancelled. The bar says already that the server is gone.
 export function report(key, error) {
   if (error.name !== "AbortError" && !error.gone) say(key, error.message);

@@ -18,9 +18,11 @@ function children_of(node) {
   node.children = [];
   for (let i = node.low; i < node.high;) {
     const end = regions.paths[i].indexOf("/", node.path.length + 1);
-    const path = end < 0 ? regions.paths[i] : regions.paths[i].slice(0, end), high = Math.max(range(path)[1], i + 1);
-    const first = regions.sorted.slice(i, high).reduce((least, region) => Math.min(least, region.id), Infinity);
-    node.children.push({...new_node(path, node.depth + 1, i, high, end < 0), first});
+    const path = end < 0 ? regions.paths[i] : regions.paths[i].slice(0, end);
+    const is_alone = !regions.paths[i + 1]?.startsWith(path), high = is_alone ? i + 1 : Math.max(range(path)[1], i + 1);
+    let first = Infinity;
+    for (let k = i; k < high; k++) first = Math.min(first, regions.sorted[k].id);
+    node.children.push(Object.assign(new_node(path, node.depth + 1, i, high, end < 0), {first}));
     i = high;
   }
   node.children.sort((a, b) => a.first - b.first);
