@@ -265,6 +265,85 @@ class Browser(unittest.TestCase):
         page.driver.back()
         page.wait(lambda: not page.driver.current_url.startswith(address))
 
+    def test_a_picture_that_takes_long_has_a_mark(self):
+        page = self.page
+        slow = {"offline": False, "latency": 1500, "downloadThroughput": -1, "uploadThroughput": -1}
+        page.driver.execute_cdp_cmd("Network.enable", {})
+        page.driver.execute_cdp_cmd("Network.emulateNetworkConditions", slow)
+        try:
+            page.js("document.getElementById('view-iso').click()")
+            page.wait(lambda: page.id("busy").is_displayed())
+            page.idle()
+            self.assertFalse(page.id("busy").is_displayed())
+        finally:
+            page.driver.execute_cdp_cmd("Network.emulateNetworkConditions", {**slow, "latency": 0})
+
+    def test_ten_tasks(self):
+        """Each with three clicks at most, beside what is typed."""
+        page, count = self.page, [0]
+
+        def click(target):
+            count[0] += 1
+            if isinstance(target, str):
+                element = self.driver.find_element("css selector", target)
+                self.driver.execute_script("arguments[0].scrollIntoView({block: 'nearest'})", element)
+                element.click()
+                page.idle()
+            else:
+                page.click(*target)
+
+        @contextlib.contextmanager
+        def task(what):
+            count[0] = 0
+            yield
+            self.assertLessEqual(count[0], 3, what)
+        with task("find a part"):
+            click("#search")
+            page.keys(*"twin")
+            click("#rows .row:not([hidden])")
+            self.assertEqual(page.text("selected-path"), "/all/pair/twin.r")
+        with task("isolate it, and show all again"):
+            click("#selected-isolate")
+            self.assertEqual(page.view()["looks"][-1], {"path": "/all/pair/twin.r", "state": "shown"})
+            click("#show-all")
+        with task("the thickness behind a pixel, and the distance of two points"):
+            click(page.screen([80, 10, 20]))
+            self.assertIn("20 mm", page.text("end-rows"))
+            click(page.screen([80, -20, -20]))
+            self.assertIn("From the point", page.text("measure"))
+        with task("who overlaps"):
+            click("#end-rows .overlap button")
+            self.assertEqual(page.js("return selection"), ["/all/pair/back.r", "/all/pair/twin.r"])
+        with task("a colour"):
+            page.set("selected-color", "#ffff00")
+        with task("front, top, iso"):
+            for view, azimuth in (("front", 0), ("top", 270), ("iso", 35)):
+                click("#view-" + view)
+                self.assertEqual(page.view()["camera"]["azimuth"], azimuth)
+        with task("cut at y = 0"):
+            click("#toggle-cut")
+            click("#add-plane")
+            click("#cut-0-set-y")
+            self.assertEqual(page.view()["clip"], [{"normal": [0, 1, 0], "distance": 0}])
+        with task("read the parts of the cut"):
+            click("#cut-0-slice")
+            page.wait(lambda: page.js("return !slice.busy && slice.ids?.length > 0"))
+            page.mouse("mouseMoved", *page.js("const b = pane(); return [b.width / 2, b.height / 2]"), button="none",
+                       on="slice-canvas")
+            page.wait(lambda: "/all/" in page.text("hover"))
+        with task("share"):
+            click("#toggle-save")
+            click("#copy-link")
+            self.assertEqual(page.text("copy-link"), "Copied")
+        with task("reload and undo"):
+            looks = page.view()["looks"]
+            page.start(page.text("link"))
+            self.assertEqual(page.view()["looks"], looks)
+            page.press("show-all")
+            page.set("selected-color", "#00ffff")
+            click("#undo")
+            self.assertEqual(page.view()["looks"], looks)
+
     def test_layout(self):
         try:
             for width, height in ((1024, 768), (1280, 800), (1600, 1000), (390, 844)):

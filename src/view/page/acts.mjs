@@ -1,4 +1,4 @@
-// What a user does to parts: states, colours, fits; and how it is undone.
+// What a user does to parts: states, colours, fits; and the steps that undo and redo go.
 import {answer, draw_answer, draw_selected, hold_answer, previous} from "./ask.mjs";
 import {fitted} from "./camera.mjs";
 import {build_planes} from "./cut.mjs";
@@ -13,7 +13,7 @@ import {Steps} from "./undo.mjs";
 
 const steps = new Steps();
 const present = () => ({looks: view.looks, clip: view.clip, answer, previous});
-/// Notes looks, cuts and measurements as they are now, so that one can come back.
+/// Notes the present looks, cuts and measurements as a step, to which undo comes back.
 export function remember(moving = false) {
   steps.note(present(), moving, performance.now());
   show_steps();
@@ -32,7 +32,7 @@ export function go_step(count, event) {
   looked(event);
   show_steps();
 }
-/// Answers have the numbers of a model's regions: they go when the model does.
+/// Answers have the numbers of a model's regions, and go with the model.
 export function forget_answers() {
   const none = {answer: null, previous: null};
   hold_answer(none);

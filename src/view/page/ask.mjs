@@ -67,7 +67,7 @@ export function overlap_at({overlaps, ray}, point) {
   const t = t_of(ray, point), most = 1e-6 * (1 + Math.abs(t));
   return overlaps.find(overlap => (overlap.in ?? -Infinity) <= t + most && (overlap.out ?? Infinity) >= t - most);
 }
-/// The overlap that a pixel shows: the first on its ray in a picture of overlaps, else that of the surface.
+/// The overlap that a pixel shows: the first on its ray in a picture of overlaps, else the overlap at the surface.
 const seen_overlap = made =>
   view.show === "overlap" ? made.overlaps[0] : made.point && overlap_at(made, made.point);
 export const paths_of = ({regions: ids}) => ids.map(path_of);
@@ -179,7 +179,7 @@ function end_rows(parts, overlaps) {
   overlaps_before(Infinity);
   return made;
 }
-/// Takes the answer away, and with the selection what is marked by it.
+/// Takes away the answer, the selection and their marks.
 export function forget_answer() {
   hold_answer({answer: null, previous: null});
   select();

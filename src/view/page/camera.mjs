@@ -68,8 +68,8 @@ export function reach(camera, box) {
     return [Math.abs(2 * x / size.css_width - 1), Math.abs(2 * y / size.css_height - 1)];
   }));
 }
-/// The camera for a picture that had the size `before`, and has another now. The square in its middle is seen as large
-/// as there is room, and a box that was in view is.
+/// The camera for a picture that had the size `before`, and has another now. The square in the
+/// middle keeps in view and fills the room, and a box that was in view keeps in view.
 export function kept_in_view(camera, box, before) {
   const after = {...size}, part = ({css_width, css_height}) => Math.min(1, css_width / css_height);
   Object.assign(size, before);

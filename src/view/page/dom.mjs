@@ -39,7 +39,7 @@ export function rove_by_key(event) {
   next.tabIndex = 0;
   next.focus();
 }
-/// A canvas is cleared by a new size: it gets the size only where it differs.
+/// A new size clears a canvas: only another size is set.
 export function resize(target, width, height) {
   if (target.width !== width || target.height !== height) Object.assign(target, {width, height});
 }

@@ -68,7 +68,7 @@ export async function pump() {
   pump();
 }
 async function draw(job) {
-  // A coarse frame is scaled by its height: it is so wide that it covers the picture then.
+  // A coarse frame is scaled by its height. Its width is such that the picture is covered then.
   const height = Math.ceil(job.full_height / job.divisor);
   const width = job.divisor === 1 ? job.full_width : Math.ceil(job.full_width * height / job.full_height);
   const response = await post("frame", {page: page_id, number: ++loop.number, view, width, height, samples: job.samples,

@@ -66,7 +66,7 @@ export const MOUSE = [["drag", "turn about the point under the mouse"], ["Shift+
   ["in the tree", "arrows move, Space changes the state, Enter or a double click fits"],
   ["drop a file", "open a saved view"]];
 export const run_of = new Map(KEYS.flatMap(([keys, , run]) => keys.map(key => [key, run])));
-/// Whether a control needs a key itself: fields all but Escape, others those that change or press them.
+/// Whether a control needs a key itself: a field needs all but Escape, others the keys that change or press them.
 function keeps_key({tagName, type}, key) {
   if (key === "Escape") return false;
   if (tagName === "INPUT" && /^(text|number|search)$/.test(type)) return true;

@@ -43,7 +43,7 @@ export function apply_looks(table, looks) {
     if (look.color) table.colors.fill(look.color, low, high);
   }
 }
-/// Whether one of the paths in a Set is a path or leads to it.
+/// Whether a path or a path above is in a Set.
 function covers_any(paths, path) {
   if (paths.has("/")) return true;
   for (let end = path.length; end > 0; end = path.lastIndexOf("/", end - 1))

@@ -92,7 +92,7 @@ by("picture").addEventListener("wheel", async event => {
     wheel.point = attempt("pick", () => ask_pixel(...place, true)).then(made => made?.point);
   }
   const point = await wheel.point;
-  if (wheel.factor === 1) return;  // an earlier event took it along
+  if (wheel.factor === 1) return;  // an earlier event took the factor along
   zoom(wheel.factor, ...place, depth_of(point));
   wheel.factor = 1;
   changed(event, true);

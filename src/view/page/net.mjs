@@ -1,4 +1,4 @@
-// The server: its requests, and what is said when they fail.
+// The server: its requests, and the sentences when they fail.
 import {say} from "./dom.mjs";
 import {ended} from "./state.mjs";
 
@@ -19,7 +19,7 @@ export async function post(name, body, signal) {
   throw new Error(said.error ?? `csgrt answered ${name} with status ${response.status}.`);
 }
 export const ask = async (name, body) => (await post(name, body)).json();
-/// A body in zlib's format, as the response that it stands for.
+/// The response whose body is what a body in zlib's format holds.
 export const decompressed = stream => new Response(stream.pipeThrough(new DecompressionStream("deflate")));
 /// The model. Its table of parts comes compressed on a slow link.
 export const ask_model = async is_slow =>

@@ -22,7 +22,7 @@ export const from_hex = text => [1, 3, 5].map(i => parseInt(text.slice(i, i + 2)
 export const corners = ({low, high}) =>
   [0, 1, 2, 3, 4, 5, 6, 7].map(i => [0, 1, 2].map(k => (i >> k & 1 ? high : low)[k]));
 export const middle_of = ({low, high}) => low.map((v, i) => (v + high[i]) / 2);
-/// The box around those of regions that are bounded; null if none is.
+/// The box around the boxes of regions; null if no region is bounded.
 export function union_of(boxes) {
   const low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity];
   for (const box of boxes) {

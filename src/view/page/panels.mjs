@@ -20,7 +20,7 @@ export function keep_in_view(run) {
   view.camera = kept_in_view(view.camera, bounds(), before);
   changed();
 }
-/// Opens or closes a panel. There is room for one in a narrow window.
+/// Opens or closes a panel. A narrow window has room for one panel.
 export function open_panel(name, open = by(name).hidden) {
   if (by(name).hidden === !open) return;
   for (const other of open && is_narrow() ? ["parts", ...SECTIONS] : [])
@@ -34,14 +34,14 @@ export function open_panel(name, open = by(name).hidden) {
   draw_overlay();
   draw_tree();
 }
-/// Opens or closes a panel as the user wants it, now and when the page is loaded again.
+/// Opens or closes a panel for the user, who finds it so when the page is loaded again.
 export function toggle_panel(name, open) {
   open_panel(name, open);
   try {
     localStorage.setItem("csgrt " + name, by(name).hidden ? "closed" : "open");
   } catch { /* Storage is not there in a notebook's frame. */ }
 }
-/// Opens and closes panels as they were; at first the parts and the answer where there is room.
+/// Opens the panels that were open. At first the parts and the answer are, where there is room.
 export function restore_panels() {
   for (const name of ["parts", "answer"]) {
     let was = null;

@@ -25,8 +25,8 @@ export function note_rate(link, bytes, ms) {
   if (best < 100 && (link.rates.length === 3 || ms > SLOW_BODY_MS)) link.deflate = true;
   if (best > 150) link.deflate = false;
 }
-/// Compressed bodies are too small to tell that a link is quick: now and then a full picture comes raw, but not where
-/// they tell that the link is slow.
+/// Compressed bodies are too small to tell that a link is quick: now and then a full picture comes raw, unless the
+/// link is known to be slow.
 export function encoding_of(link, job, number) {
   const probes = !job.coarse && job.samples === 1 && number % 8 === 0 && best_of(link.rates) > 20;
   return link.deflate && !probes ? "deflate" : "raw";

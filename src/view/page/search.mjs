@@ -1,7 +1,7 @@
 // The search for parts, and names that are cut short in the middle.
 
-/// The shortest paths whose last leg ends what is searched for: a combination stands for what is below it. `text` is in
-/// lower case. Each path has `leaf`, whether it is a region, and `at`, where the match begins.
+/// The shortest paths whose last leg ends what is searched for: a combination stands for its parts. `text` is in lower
+/// case. Each path has `leaf`, whether it is a region, and `at`, where the match begins.
 export function found_in(paths, text) {
   const found = new Map();
   for (const path of paths) {

@@ -76,7 +76,7 @@ export function state_word(ranges) {
   const states = new Set(ranges.map(([low, high]) => state_of({low, high})));
   return WORDS[states.size > 1 ? 3 : [...states][0]];
 }
-/// The parts that a control of a row means: the row's, or all that are selected where it is among them.
+/// The parts that a control of a row means: the row's part, or all selected parts where the row is selected.
 const meant = ({path}) => selection.includes(path) ? selection : [path];
 function make_row() {
   const row = el("div", {className: "row", role: "treeitem"});
