@@ -3,6 +3,7 @@
 #include <zlib.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <chrono>
 #include <cmath>
@@ -30,10 +31,14 @@ constexpr std::size_t most_edited = 16, most_pages = 256, most_pooled = 2;
 constexpr std::size_t most_answer_bytes = 64'000'000;  ///< four frames of 2000 x 2000
 constexpr std::chrono::milliseconds turn{5};           ///< between two checks whether a waiting request is still wanted
 
+bool is_finite(const Box& box) {
+    return box.low.x <= box.high.x &&
+           std::ranges::all_of(std::array{box.low.x, box.low.y, box.low.z, box.high.x, box.high.y, box.high.z},
+                               [](double value) { return std::isfinite(value); });
+}
+
 Json to_json(const Box& box) {
-    if (!(box.low.x <= box.high.x)) return nullptr;
-    for (const double value : {box.low.x, box.low.y, box.low.z, box.high.x, box.high.y, box.high.z})
-        if (!std::isfinite(value)) return nullptr;
+    if (!is_finite(box)) return nullptr;
     return {{"low", to_json(box.low)}, {"high", to_json(box.high)}};
 }
 
@@ -183,16 +188,17 @@ Json ViewSession::model() const {
 
     Json regions = Json::array(), warnings = Json::array();
     for (const RegionInfo& region : model.regions()) {
-        const Json box = to_json(region.bounds);
-        regions.push_back({{"path", region.path},
-                           {"region_id", region.region_id},
-                           {"air", region.air},
-                           {"material_id", region.material_id},
-                           {"los", region.los},
-                           {"color", to_json(region.color)},
-                           {"state", name_of(state_names, region.state)},
-                           {"low", box.is_null() ? box : box["low"]},
-                           {"high", box.is_null() ? box : box["high"]}});
+        Json& row = regions.emplace_back(Json::object());  // lists of braces would copy each member twice
+        row["path"] = region.path;
+        row["region_id"] = region.region_id;
+        row["air"] = region.air;
+        row["material_id"] = region.material_id;
+        row["los"] = region.los;
+        row["color"] = to_json(region.color);
+        row["state"] = name_of(state_names, region.state);
+        const bool has_box = is_finite(region.bounds);
+        row["low"] = has_box ? to_json(region.bounds.low) : Json();
+        row["high"] = has_box ? to_json(region.bounds.high) : Json();
     }
     for (const Warning& warning : model.warnings()) {
         const Place& place = warning.place;
