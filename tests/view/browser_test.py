@@ -248,21 +248,26 @@ class Browser(unittest.TestCase):
         page.click(*page.screen([80, 0, 20]))
         page.press("help-button")
         looks = page.view()
+
+        def back():
+            time.sleep(0.4)  # the browser learns later than the page that an entry was added
+            page.driver.back()
         for name in ("help", "slice", "selected", "cut"):
             self.assertTrue(page.id(name).is_displayed(), name)
-            page.driver.back()
+            back()
             page.wait(lambda: not page.id(name).is_displayed())
         self.assertEqual(page.view()["clip"], looks["clip"])
         address = page.driver.current_url.partition("#")[0]
-        page.driver.back()
+        back()
         page.wait(lambda: "Back once more" in page.text("bar"))
         page.click(*page.screen([80, 0, 20]))
         self.assertFalse(page.id("bar").is_displayed())
-        page.driver.back()
-        page.driver.back()
+        back()
+        page.wait(lambda: page.text("selected-path") and not page.id("selected").is_displayed())
+        back()
         page.wait(lambda: "Back once more" in page.text("bar"))
         self.assertEqual(page.driver.current_url.partition("#")[0], address)
-        page.driver.back()
+        back()
         page.wait(lambda: not page.driver.current_url.startswith(address))
 
     def test_a_picture_that_takes_long_has_a_mark(self):

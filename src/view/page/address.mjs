@@ -72,6 +72,7 @@ window.addEventListener("popstate", ({state}) => {
   if (is_guarded) return;
   if (close_last()) guard();
   else say("back", "Back once more leaves the page.");
+  write_address();  // else the event of the other # would open again what was closed
 });
 for (const name of ["pointerdown", "keydown"]) document.addEventListener(name, guard, true);
 /// Closes a dialog, else the slice, else what Escape closes. False: nothing is open.
