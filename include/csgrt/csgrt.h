@@ -112,7 +112,7 @@ typedef struct csgrt_settings {
     int reference;
     /// Calls wait until a GPU's kernels are compiled; else this processor computes until then, with the same bits.
     int wait_for_device;
-    /// Seconds that a device may take for an answer before it is given up; 0: any time. -1: 60 for a GPU and any time
+    /// Seconds that a device may take for an answer before it is given up; 0: no limit. -1: 60 for a GPU and no limit
     /// for a processor.
     double device_timeout;
     /// Bytes of memory to use on each device; a frame that needs more is drawn in batches. 0: what the device has.
@@ -616,7 +616,7 @@ typedef struct csgrt_statistics {
     uint64_t partition_bytes;
     /// Number of batches of rays.
     unsigned batches;
-    /// Reading the scene's file; the command line sets it.
+    /// Reading the scene's file. Only the command line sets this member.
     double ms_load;
     /// Compiling the scene.
     double ms_compile;
@@ -635,7 +635,7 @@ typedef struct csgrt_statistics {
     double ms_kernels;
     /// The whole call, on the host's clock.
     double ms_frame;
-    /// Writing the picture's file; the command line sets it.
+    /// Writing the picture's file. Only the command line sets this member.
     double ms_write;
 } csgrt_statistics;
 CSGRT_API csgrt_status csgrt_renderer_statistics(const csgrt_renderer* renderer, csgrt_statistics* statistics);

@@ -90,24 +90,6 @@ bool leads_somewhere(const std::vector<std::string>& paths, const std::string& p
     }();
 }
 
-/// The looks, with those of "/" given to all top objects: an Edit and the command know no path of all.
-std::vector<Look> of_objects(const std::vector<Look>& looks, const std::vector<std::string>& paths) {
-    std::vector<Look> all;
-    for (const Look& look : looks) {
-        if (look.path != "/") {
-            all.push_back(look);
-            continue;
-        }
-        Look of_top = look;
-        for (const std::string& path : paths)
-            if (of_top.path != path.substr(0, path.find('/', 1))) {
-                of_top.path = path.substr(0, path.find('/', 1));
-                all.push_back(of_top);
-            }
-    }
-    return all;
-}
-
 /// Each pixel's difference from the pixel before, compressed. Neighbours are alike, so that the differences are small.
 std::string deflated(const std::vector<std::uint32_t>& pixels) {
     const std::size_t size = pixels.size() * sizeof pixels[0];
@@ -254,7 +236,7 @@ ViewSession::EditedModel ViewSession::model_with(const std::vector<Look>& looks)
         return {found->second, generation};
     }
     Edit edit(current_.base);
-    for (const Look& look : of_objects(looks, current_.paths)) {
+    for (const Look& look : looks) {
         if (!leads_somewhere(current_.paths, look.path)) continue;  // the region was in another version of the file
         if (look.state) edit.set_state(look.path, *look.state);
         if (look.color) edit.set_color(look.path, *look.color);
@@ -377,10 +359,7 @@ Json ViewSession::pick(const Request& request) {
 std::string ViewSession::picture_command(const PageView& page) const {
     View written = page.view;
     written.every_partition = true;  // in a command, the file's type chooses whether to compute them
-    return "csgrt " + options_.command + methods_ + drawing_options(written, [&] {
-               const std::lock_guard lock(current_mutex_);
-               return of_objects(page.looks, current_.paths);
-           }());
+    return "csgrt " + options_.command + methods_ + drawing_options(written, page.looks);
 }
 
 Json ViewSession::command(const Request& request) const {

@@ -95,9 +95,9 @@ struct Viewer::Impl {
             };
         };
         answers["model"] = [this](const Request& request, Exchange& exchange) {
-            const Json model = session.model();
-            if (!request.has("encoding")) return answer_json(exchange, model);
-            const std::string text = model.dump(-1, ' ', false, Json::error_handler_t::replace);
+            const Json whole = session.model();
+            if (!request.has("encoding")) return answer_json(exchange, whole);
+            const std::string text = whole.dump(-1, ' ', false, Json::error_handler_t::replace);
             exchange.answer(http::good, "application/octet-stream", {compressed(text)});
         };
         answer_by("status", [this](const Request&) { return session.status(); });

@@ -223,7 +223,7 @@ inline void require_agreement(const Scene& scene, const std::vector<std::string>
         return device.statistics().device_bytes;
     }();
     Settings little = settings;
-    little.max_memory = scene_bytes + 600'000;  // some dozen batches
+    little.max_memory = scene_bytes + 475'000;  // some dozen batches
     Renderer batched(scene, objects, little);
     for (const double perspective : {0.0, 40.0}) {
         View view{.width = size, .height = size, .camera = scene.camera};

@@ -112,7 +112,7 @@ TEST_CASE("view: a frame has the bytes of the Renderer's picture, packed or not"
         Edit(model).set_state("/operators", State::hidden).set_state("/operators/union", State::shown).commit());
     CHECK(page.frame(sized(view)).pixels == display_bytes(renderer, cut));
     CHECK_THAT(page.ask("command", sized(view))["command"].get<std::string>(),
-               ContainsSubstring("--hide /operators --show /operators/union"));
+               ContainsSubstring("--hide / --show /operators/union"));
 }
 
 TEST_CASE("view: a scene's camera by its eye is shown from there", "[view]") {
