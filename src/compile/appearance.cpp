@@ -146,7 +146,8 @@ Appearance appearance_of(const SceneAppearance& scene, const SharedList<RegionIn
     SharedList<kernel::MaterialRecord>& materials = appearance.materials =
         SharedList<kernel::MaterialRecord>(regions.size());
     constexpr std::size_t many = 4096;
-    static_assert(many % materials.chunk_size == 0);  // threads make different chunks of the list
+    static_assert(many % SharedList<kernel::MaterialRecord>::chunk_size ==
+                  0);  // threads make different chunks of the list
     std::atomic<std::uint64_t> hash = 0;
     for_chunks(regions.size(), many, 0, [&](std::size_t first, std::size_t last, std::size_t) {
         std::uint64_t own = 0;
