@@ -143,11 +143,10 @@ Appearance common_appearance(const SceneAppearance& scene, bool display_shading)
 Appearance appearance_of(const SceneAppearance& scene, const SharedList<RegionInfo>& regions,
                          std::span<const RegionLight> shining, bool display_shading, std::vector<Warning>& warnings) {
     Appearance appearance = common_appearance(scene, display_shading);
-    SharedList<kernel::MaterialRecord>& materials = appearance.materials =
-        SharedList<kernel::MaterialRecord>(regions.size());
+    using Materials = SharedList<kernel::MaterialRecord>;
+    Materials& materials = appearance.materials = Materials(regions.size());
     constexpr std::size_t many = 4096;
-    static_assert(many % SharedList<kernel::MaterialRecord>::chunk_size ==
-                  0);  // threads make different chunks of the list
+    static_assert(many % Materials::chunk_size == 0);  // threads make different chunks of the list
     std::atomic<std::uint64_t> hash = 0;
     for_chunks(regions.size(), many, 0, [&](std::size_t first, std::size_t last, std::size_t) {
         std::uint64_t own = 0;

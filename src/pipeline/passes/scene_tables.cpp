@@ -66,8 +66,9 @@ void SceneTables::take(const CompiledScene& scene, const RecordConverter::Tables
     replace(starts_, scene_.starts, scene.starts, std::as_bytes(std::span(scene.starts.get())));
     replace(starting_, scene_.starting, scene.starting, std::as_bytes(std::span(scene.starting.get())));
     replace(display_, scene_.display, scene.display, std::as_bytes(std::span(scene.display.get())));
-    const SharedList<kernel::MaterialRecord>&before = scene_.materials, &now = scene.materials;
-    constexpr std::size_t size = before.chunk_size, bytes = sizeof(kernel::MaterialRecord);
+    using Materials = SharedList<kernel::MaterialRecord>;
+    const Materials &before = scene_.materials, &now = scene.materials;
+    constexpr std::size_t size = Materials::chunk_size, bytes = sizeof(kernel::MaterialRecord);
     materials_.reserve(now.size() * bytes);
     const auto differs = [&](std::size_t first, std::size_t) {
         return before.size() != now.size() || before.chunk(first / size).data() != now.chunk(first / size).data();
