@@ -68,8 +68,8 @@ TEST_CASE("json: what is rendered may be placed as a leg is", "[promise:scenes]"
                                            std::pair{R"([{"translate": [1, 2, 3]}])", "'object'"},
                                            std::pair{R"([{"object": "t", "name": "x"}])", "'name'"},
                                            std::pair{R"([{"object": "t", "scale": 0}])", "a scale must not be 0"}})
-        CHECK(test::says(test::failure(Status::scene, [&] { scene_of(head + "\"objects\": " + objects + "}"); }),
-                         message));
+        CHECK(test::says(
+            test::failure(Status::scene, [&, of = objects] { scene_of(head + "\"objects\": " + of + "}"); }), message));
 }
 
 TEST_CASE("json: cylinders and cones stand upright on their base, round") {
