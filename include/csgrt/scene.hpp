@@ -118,8 +118,8 @@ enum class State : std::uint8_t {
 
 /// The appearance of the regions at a path, in place of their combinations' attributes.
 struct Look {
-    std::string path =
-        {};  ///< a RegionInfo::path, or its beginning up to a '/' for all regions below; "/": all regions
+    /// A RegionInfo::path, or its beginning up to a '/' for all regions below; "/": all regions.
+    std::string path = {};
     std::optional<Vec3> color = {};  ///< red, green, blue; 0 to 1
     std::optional<Finish> finish = {};
     std::optional<State> state = {};

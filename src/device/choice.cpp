@@ -26,9 +26,8 @@ std::string nearest_device(const std::vector<DeviceInfo>& devices, const std::st
                 if (word.size() > 2) known.push_back(word);
         }
     }
-    if (std::find(known.begin(), known.end(), lower(wanted)) != known.end())
-        return {};  // spelled correctly, but no
-                    // device fits
+    // The name may be spelled correctly, and no device fits.
+    if (std::find(known.begin(), known.end(), lower(wanted)) != known.end()) return {};
     return did_you_mean(wanted, {known.begin(), known.end()});
 }
 

@@ -4,7 +4,6 @@
 #include <unordered_map>
 #include <utility>
 
-#include "compile/regions/path_table.hpp"
 #include "compile/repaint.hpp"
 #include "render/model_impl.hpp"
 #include "scene/edit_scene.hpp"
@@ -226,10 +225,8 @@ Model Edit::commit() const {
     const Impl& edit = *impl_;
     const AllowedThreads allowed(edit.source.settings.threads);
     ModelSource source = edit.next();
-    Scene values;
-    source.put_appearance(values);
-    values.looks.clear();  // valid since they were set
-    check_values(values);
+    // Looks were checked when they were set.
+    check_values({.lights = source.lights, .ambient = source.ambient, .background = source.background});
     std::shared_ptr<const Model::Impl> made;
     if (edit.changes_tables_alone()) {
         CompiledScene painted =

@@ -30,12 +30,6 @@ ObjectPath follow_to_member(const Scene& scene, const Names& names, const std::s
     return found;
 }
 
-/// A path without the '/' at its ends.
-std::string_view bare(std::string_view path) {
-    path.remove_prefix(std::min(path.find_first_not_of('/'), path.size()));
-    return path.substr(0, path.find_last_not_of('/') + 1);
-}
-
 Tree& tree_of(Scene& scene, std::uint32_t object) { return std::get<Combination>(scene.objects[object]).tree; }
 
 /// "name~2", or with a higher number: a name that no object has, and none of `taken`.
@@ -158,7 +152,7 @@ void remove_leaf(Tree& tree, std::uint32_t leaf) {
 }  // namespace
 
 std::size_t position(const std::vector<std::string>& rendered, const std::string& path) {
-    return static_cast<std::size_t>(std::ranges::find(rendered, bare(path), bare) - rendered.begin());
+    return static_cast<std::size_t>(std::ranges::find(rendered, bare_path(path), bare_path) - rendered.begin());
 }
 
 void add_top(Scene& scene, const std::string& object, const Matrix& matrix) {
@@ -293,7 +287,7 @@ void erase_object(Scene& scene, const std::vector<std::string>& rendered, const 
     }
     for (const std::vector<std::string>* roots : {&rendered, &std::as_const(scene.top)})
         for (const std::string& root : *roots)
-            if (bare(root) != bare(path))
+            if (bare_path(root) != bare_path(path))
                 for (const ObjectPath::Step& step : find_path(scene, *names, root).steps)
                     use(step.object, "the list of what is rendered");
     if (!users.empty())

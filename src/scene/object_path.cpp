@@ -165,11 +165,14 @@ ObjectPath follow_path(const Scene& scene, const Names& names, const std::string
     return found;
 }
 
+std::string_view bare_path(std::string_view path) {
+    path.remove_prefix(std::min(path.find_first_not_of('/'), path.size()));
+    return path.substr(0, path.find_last_not_of('/') + 1);
+}
+
 std::string normal_path(const std::string& path) {
-    const std::size_t first = path.find_first_not_of('/'), last = path.find_last_not_of('/');
-    if (first == std::string::npos && !path.empty()) return "/";
     if (path.empty()) throw Error(Status::usage, "the path '" + path + "' names nothing");
-    return "/" + path.substr(first, last - first + 1);
+    return "/" + std::string(bare_path(path));
 }
 
 const Matrix& matrix_of(const Names& names, const ObjectPath& path, std::size_t step) {

@@ -32,8 +32,16 @@ ObjectPath find_path(const Scene& scene, const Names& names, const std::string& 
 /// As find_path(). Throws Error (usage) if the path leads to no object.
 ObjectPath follow_path(const Scene& scene, const Names& names, const std::string& text);
 
+/// A path without the '/' at its ends.
+std::string_view bare_path(std::string_view path);
+
 /// A path in the form of regions' paths; "/": all. Throws Error (usage) for an empty path.
 std::string normal_path(const std::string& path);
+
+/// Whether a region's path is `path` or lies below it. All lie below "/".
+inline bool is_at_or_below(std::string_view region, std::string_view path) {
+    return path == "/" || (region.starts_with(path) && (region.size() == path.size() || region[path.size()] == '/'));
+}
 
 /// The matrix of the member at step `step` of a path, in the tree of the step before; at step 0 the matrix of a top
 /// object.

@@ -18,6 +18,7 @@
 #include "cli/text/statistics.hpp"
 #include "form/camera.hpp"
 #include "form/written_back.hpp"
+#include "scene/object_path.hpp"
 
 namespace csgrt::cli {
 
@@ -87,10 +88,8 @@ void check(const RenderArguments& arguments) {
 /// time.
 void check_looks(const std::vector<Look>& looks, const SharedList<RegionInfo>& regions) {
     for (const Look& look : looks) {
-        const bool is_there = std::ranges::any_of(regions, [&](const RegionInfo& region) {
-            return region.path.starts_with(look.path) &&
-                   (look.path == "/" || region.path.size() == look.path.size() || region.path[look.path.size()] == '/');
-        });
+        const bool is_there = std::ranges::any_of(
+            regions, [&](const RegionInfo& region) { return is_at_or_below(region.path, look.path); });
         if (is_there) continue;
         std::vector<std::string_view> paths;
         for (const RegionInfo& region : regions) paths.push_back(region.path);

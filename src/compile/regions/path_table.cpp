@@ -6,10 +6,6 @@
 
 namespace csgrt {
 
-bool is_at_or_below(std::string_view region, std::string_view path) {
-    return path == "/" || (region.starts_with(path) && (region.size() == path.size() || region[path.size()] == '/'));
-}
-
 std::vector<std::uint32_t> LatePathTable::find(const CompiledScene& scene, std::string_view path) {
     LatePathTable& table = *scene.paths;
     std::vector<std::uint32_t>& sorted = table.sorted_;

@@ -10,9 +10,6 @@
 
 namespace csgrt {
 
-/// Whether a region's path is `path` or lies below it. All lie below "/".
-bool is_at_or_below(std::string_view region, std::string_view path);
-
 /// The numbers of regions, by their paths, made at the first use. All scenes whose regions have the same paths under
 /// the same numbers share a table. Any thread.
 class LatePathTable {

@@ -102,8 +102,8 @@ private:
     void split(const Range& range) {
         const auto weight = [&](std::size_t i) { return weights_[i] - weights_[range.first]; };
         const auto total = weight(range.end);
-        std::size_t low = range.first + 1,
-                    high = range.end - 1;  // searched: the first position with half of the weight before it
+        // The first position with half of the weight before it is searched.
+        std::size_t low = range.first + 1, high = range.end - 1;
         while (low < high) {
             const std::size_t middle = (low + high) / 2;
             if (2 * weight(middle) < total)

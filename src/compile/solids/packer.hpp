@@ -20,8 +20,7 @@ namespace csgrt {
 /// pack_sketches.cpp the solids of sketches, pack_meshes.cpp the solids of triangles.
 struct Packer {
     const Matrix& matrix;
-    Shapes&
-        scene;  ///< only solids of no fixed size (meshes, sketches, cells) write to it: see IsSmall in pack_scene.cpp
+    Shapes& scene;  ///< written by solids of no fixed size (meshes, sketches, cells): see IsSmall in pack_scene.cpp
     SharedParts& shared;
     std::vector<double>& reals;  ///< of this solid, from first_real on; for solids without a fixed size of the scene
     std::vector<Plane>& planes;  ///< the faces, for the search in the table of planes

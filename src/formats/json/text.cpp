@@ -96,9 +96,8 @@ std::string readable_json_string(const std::string& text) {
 }
 
 std::string json_number(double value) {
-    if (value == 0 && std::signbit(value))
-        return "-0.0";  // many readers take "-0" for a whole number, and lose its
-                        // sign
+    // Many readers take "-0" for a whole number, and lose its sign.
+    if (value == 0 && std::signbit(value)) return "-0.0";
     char digits[32];
     return {digits, std::to_chars(digits, digits + sizeof digits, value).ptr};
 }

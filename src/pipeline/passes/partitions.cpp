@@ -104,9 +104,9 @@ kernel::RayCount PartitionPass::read_total(const Buffer& counts, std::uint32_t r
 
 std::optional<PartitionSizes> PartitionPass::trace_counted(const Input& input, TimedKernels& timed) {
     if (auto sizes = try_counted(input, timed)) return sizes;
-    for (const auto& [time, kernel] : timed)
-        wait_for(kernel);       // throws if the reason was a fault; missing memory throws nothing
-    memory_.release_counted();  // a smaller batch needs the memory
+    // A fault throws here; missing memory throws nothing, and a smaller batch needs what is released.
+    for (const auto& [time, kernel] : timed) wait_for(kernel);
+    memory_.release_counted();
     deep_rays_.release();
     return {};
 }
