@@ -1,9 +1,11 @@
 // What a CAD viewer does, without a window: each action on a model, how many statements it takes, and how long it is
-// until its pixels are there. docs/viewer.md has the table.
+// until its pixels are there. docs/viewer.md has the table. The sequence of actions runs several times, each time with
+// other parts; the times are medians.
 //
 //     viewer SCENE [OBJECT...]
 #include <csgrt/csgrt.hpp>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cmath>
@@ -25,12 +27,26 @@ csgrt::Vec3 sum(const csgrt::Vec3& a, double s, const csgrt::Vec3& b) {
     return {a.x + s * b.x, a.y + s * b.y, a.z + s * b.z};
 }
 
-/// A viewer's state: what is looked at, and from where.
+/// What a gizmo's handle gives: a turn by `degrees` about the axis parallel to z through a point, and a way up.
+csgrt::Matrix turned(const csgrt::Vec3& about, double degrees, double up) {
+    const double c = std::cos(degrees * std::numbers::pi / 180), s = std::sin(degrees * std::numbers::pi / 180);
+    csgrt::Matrix matrix = csgrt::identity;
+    matrix[0] = matrix[5] = c;
+    matrix[1] = -s;
+    matrix[4] = s;
+    matrix[3] = about.x - c * about.x + s * about.y;
+    matrix[7] = about.y - s * about.x - c * about.y;
+    matrix[11] = up;
+    return matrix;
+}
+
+/// A viewer's state: what is looked at, from where, and what undo brings back.
 struct Viewer {
     std::atomic<bool> cancelled{false};
     csgrt::Renderer renderer;
     csgrt::View view;
     csgrt::Framebuffer window;
+    std::vector<csgrt::Model> before;  // Models share what an edit leaves alone
 
     Viewer(csgrt::Model model, const csgrt::Camera& camera)
         : renderer(std::move(model), {.progress = [this](double) { return !cancelled; }}) {
@@ -43,25 +59,60 @@ struct Viewer {
 
     /// One frame, of which a window would show window.image().ids("RGBA8").
     void draw() { renderer.render(view, window); }
+    csgrt::Model model() const { return renderer.model(); }
+    csgrt::Edit edit() const { return csgrt::Edit(model()); }
+    void show(const csgrt::Edit& edit) {
+        csgrt::Model next = edit.commit();
+        before.push_back(model());
+        renderer.set_model(std::move(next));
+        draw();
+    }
+    void undo() {
+        renderer.set_model(before.back());
+        before.pop_back();
+        draw();
+    }
+
     /// The height of the picture at its centre, in millimetres.
     double height() const {
-        const csgrt::Box box = renderer.model().bounds();
+        const csgrt::Box box = model().bounds();
         const csgrt::Vec3 size = sum(box.high, -1, box.low);
         return view.camera.view_size.value_or(std::hypot(size.x, size.y, size.z));
     }
     csgrt::Vec3 center() const {
-        const csgrt::Box box = renderer.model().bounds();
+        const csgrt::Box box = model().bounds();
         return view.camera.center.value_or(sum(sum({}, 0.5, box.low), 0.5, box.high));
     }
-    /// What the pixel in the middle of the window, or beside it, shows.
-    csgrt::Pick pick(int right = 0) const {
-        return renderer.model().pick(view, view.width / 2 + right, view.height / 2);
+    /// What a pixel beside the middle of the window shows.
+    csgrt::Pick pick(int right = 0) const { return model().pick(view, view.width / 2 + right, view.height / 2); }
+    std::string picked_path(int right) const {
+        const csgrt::Pick seen = pick(right);
+        return model().regions()[seen.region < 0 ? 0 : static_cast<std::size_t>(seen.region)].path;
     }
-    std::string picked_path() const {
-        const csgrt::Pick seen = pick();
-        return renderer.model().regions()[seen.region < 0 ? 0 : static_cast<std::size_t>(seen.region)].path;
+};
+
+/// The rows of the table, in the order of their first times.
+struct Table {
+    struct Row {
+        std::string name;
+        int statements;
+        std::vector<double> milliseconds;
+    };
+    std::vector<Row> rows;
+
+    void add(const char* name, int statements, double milliseconds) {
+        auto row = std::ranges::find(rows, name, &Row::name);
+        if (row == rows.end()) row = rows.insert(row, {name, statements, {}});
+        row->milliseconds.push_back(milliseconds);
     }
-    csgrt::Edit edit() const { return csgrt::Edit(renderer.model()); }
+    void print() {
+        std::printf("| action | statements | milliseconds |\n|---|---|---|\n");
+        for (Row& row : rows) {
+            std::ranges::sort(row.milliseconds);
+            const double median = row.milliseconds[row.milliseconds.size() / 2];
+            std::printf("| %s | %d | %.3g |\n", row.name.c_str(), row.statements, median);
+        }
+    }
 };
 
 constexpr int statements_of(const char* text) {
@@ -70,30 +121,17 @@ constexpr int statements_of(const char* text) {
     return count;
 }
 
-void print(const char* name, int statements, double milliseconds) {
-    std::printf("| %s | %d | %.2f |\n", name, statements, milliseconds);
-}
-
 /// Runs statements, and tells how many they are and how long they took.
-#define ACTION(name, ...)                                                    \
-    {                                                                        \
-        const auto start = Clock::now();                                     \
-        __VA_ARGS__;                                                         \
-        print(name, statements_of(#__VA_ARGS__), milliseconds_since(start)); \
+#define ACTION(name, ...)                                                        \
+    {                                                                            \
+        const auto start = Clock::now();                                         \
+        __VA_ARGS__;                                                             \
+        table.add(name, statements_of(#__VA_ARGS__), milliseconds_since(start)); \
     }
 
-}  // namespace
-
-int main(int argc, char** argv) try {
-    if (argc < 2) {
-        std::fprintf(stderr, "usage: viewer SCENE [OBJECT...]\n");
-        return 2;
-    }
-    const csgrt::Scene scene = csgrt::load_scene(argv[1]);
-    Viewer v(csgrt::Model(scene, std::vector<std::string>(argv + 2, argv + argc)), scene.camera);
-    v.draw();
-    std::printf("| action | statements | milliseconds |\n|---|---|---|\n");
-
+/// All actions once, with the part that is seen beside the window's middle. Leaves the Model as it was.
+void act(Viewer& v, Table& table, int right) {
+    const csgrt::Camera camera = v.view.camera;
     ACTION("the same frame again", v.draw())
     ACTION("orbit", v.view.camera.azimuth += 15; v.view.camera.elevation += 5; v.draw())
     ACTION("pan by 20 pixels", const double pixel = v.height() / v.view.height;
@@ -102,24 +140,35 @@ int main(int argc, char** argv) try {
     ACTION("zoom to the point under the cursor", const csgrt::Pick seen = v.pick(40);
            if (seen.region >= 0) v.view.camera.center = sum(seen.point, 0.5, sum(v.center(), -1, seen.point));
            v.view.camera.view_size = v.height() / 2; v.draw())
-    v.view.camera = scene.camera;
-    ACTION("pick: region, solid, point", const csgrt::Pick seen = v.pick(); static_cast<void>(seen))
-    const std::string part = v.picked_path();
-    ACTION("hide a part", v.renderer.set_model(v.edit().set_state(part, csgrt::State::hidden).commit()); v.draw())
-    ACTION("isolate a part", const std::string top = part.substr(0, part.find('/', 1)); v.renderer.set_model(
-        v.edit().set_state(top, csgrt::State::hidden).set_state(part, csgrt::State::shown).commit());
-           v.draw())
-    ACTION("show all", const std::string top = part.substr(0, part.find('/', 1));
-           v.renderer.set_model(v.edit().set_state(top, csgrt::State::shown).commit()); v.draw())
-    ACTION("recolour a part", v.renderer.set_model(v.edit().set_color(part, {1, 0.5, 0}).commit()); v.draw())
-    if (part.find('/', 1) != std::string::npos) {
-        csgrt::Matrix up = csgrt::identity;
-        up[11] = 0.05 * v.height();
-        ACTION("move a part", v.renderer.set_model(v.edit().set_matrix(part, up).commit()); v.draw())
-    }
+    v.view.camera = camera;
+
+    csgrt::Pick seen;
+    ACTION("pick: region, solid, point", seen = v.pick(right))
+    const std::string part = v.picked_path(right);
+    ACTION("recolour a part", v.show(v.edit().set_color(part, {1, 0.5, 0})))
+    ACTION("hide a part", v.show(v.edit().set_state(part, csgrt::State::hidden)))
+    ACTION("isolate a part", v.show(v.edit().set_state("/", csgrt::State::hidden).set_state(part, csgrt::State::shown)))
+    ACTION("show all", v.show(v.edit().set_state("/", csgrt::State::shown)))
+    v.view.channels |= csgrt::channel::ghosts;
+    ACTION("make a part a ghost", v.show(v.edit().set_state(part, csgrt::State::ghost)))
+    ACTION("orbit, with this ghost", v.view.camera.azimuth += 15; v.draw())
+    v.undo();
+    v.view.channels = csgrt::channel::display;
+    v.view.camera = camera;
     ACTION("cut by a plane", v.view.clip = {{{1, 0, 0}, v.center().x}}; v.draw())
     v.view.clip.clear();
-    ACTION("four rays a pixel", v.view.samples = 4; v.draw())
+
+    const csgrt::Matrix gizmo = turned(seen.point, 5, 0.01 * v.height());
+    const csgrt::Shape ball = csgrt::Ell{seen.point, {10, 0, 0}, {0, 10, 0}, {0, 0, 10}};
+    ACTION("move a part by a gizmo's matrix", v.show(v.edit().move(part, gizmo)))
+    ACTION("add a part", v.show(v.edit().add(csgrt::Solid{"a new ball", ball}, true)))
+    ACTION("move the new part", v.show(v.edit().move("/a new ball", gizmo)))
+    ACTION("remove a part", v.show(v.edit().remove(part)))
+    ACTION("undo", v.undo())
+    while (!v.before.empty()) v.undo();
+
+    v.view.samples = 4;
+    ACTION("four rays a pixel", v.draw())
     v.view.samples = 1;
     double first_pixels = 0;
     const auto coarse_start = Clock::now();
@@ -127,21 +176,48 @@ int main(int argc, char** argv) try {
         if (size == 8) first_pixels = milliseconds_since(coarse_start);
         return true;
     }))
-    print("... its first pixels", 0, first_pixels);
+    table.add("the first pixels of this", 0, first_pixels);
     ACTION("a screen of twice the density", v.view.width *= 2; v.view.height *= 2; v.draw())
-    v.view.samples = 16;
+    v.view.width /= 2;
+    v.view.height /= 2;
+}
+
+/// Whether a frame ends when a user has gone on before it is drawn.
+void cancel(Viewer& v) {
+    v.view.samples = 256;
     std::thread impatient([&] {
         std::this_thread::sleep_for(std::chrono::milliseconds(30));
         v.cancelled = true;
     });
     try {
         v.draw();
-        std::printf("16 rays a pixel were drawn before 30 ms were over\n");
+        std::printf("256 rays a pixel were drawn before 30 ms were over\n");
     } catch (const csgrt::Error& error) {
         if (error.status() != csgrt::Status::interrupted) throw;
-        std::printf("a frame of 16 rays a pixel was cancelled\n");
+        std::printf("a frame of 256 rays a pixel was cancelled\n");
     }
     impatient.join();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) try {
+    if (argc < 2) {
+        std::fprintf(stderr, "usage: viewer SCENE [OBJECT...]\n");
+        return 2;
+    }
+    Table table;
+    const csgrt::Scene scene = csgrt::load_scene(argv[1]);
+    const std::vector<std::string> objects(argv + 2, argv + argc);
+    const auto start = Clock::now();
+    const csgrt::Model model(scene, objects);
+    table.add("a new Model", 1, milliseconds_since(start));
+    Viewer v(model, scene.camera);
+    v.draw();
+    const int rounds = 5;
+    for (int i = 0; i < rounds; ++i) act(v, table, (i - rounds / 2) * v.view.width / 16);
+    table.print();
+    cancel(v);
     std::printf("device: %s, %zu regions, %zu solids\n", v.renderer.statistics().device.c_str(),
                 v.renderer.model().regions().size(), v.renderer.model().solids().size());
     return 0;

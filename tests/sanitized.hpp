@@ -18,6 +18,6 @@ inline constexpr bool sanitized = false;
 #endif
 
 /// How often random cases are tried: the sanitizers look at what is run, not at how often.
-constexpr int tries(int number) { return sanitized ? (number + 7) / 8 : number; }
+constexpr int tries(int number) { return sanitized ? (number + 15) / 16 : number; }
 
 }  // namespace csgrt::test

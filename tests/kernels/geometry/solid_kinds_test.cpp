@@ -10,7 +10,7 @@ using namespace csgrt;
 
 namespace {
 
-constexpr std::size_t short_run = test::tries(20'000), long_run = 1'000'000;
+constexpr std::size_t short_run = test::tries(10'000), long_run = 1'000'000;
 
 struct Kind {
     const char* name;
