@@ -657,6 +657,12 @@ enum {  // channels
     CSGRT_CHANNEL_GHOSTS = 64,
 };
 
+enum {  // csgrt_view::light
+    CSGRT_LIGHT_MODEL = 0,
+    CSGRT_LIGHT_HEADLIGHT = 1,
+    CSGRT_LIGHT_STUDIO = 2,
+};
+
 typedef struct csgrt_pixel_rectangle {
     int left;
     int top;
@@ -686,6 +692,10 @@ typedef struct csgrt_view {
     int samples;
     /// No background: red, green, blue and alpha are 0 where a ray hits nothing.
     int transparent;
+    /// Black lines where the region, the surface's direction or its depth changes from pixel to pixel.
+    int edges;
+    /// Where light comes from.
+    int light;
 } csgrt_view;
 
 /// A picture's memory, which the next frame reuses.
@@ -838,7 +848,7 @@ CSGRT_API void csgrt_verification_init(csgrt_verification* verification);
 #define CSGRT_HITS {sizeof(csgrt_hits), 0, NULL, NULL, NULL, NULL}
 #define CSGRT_STATISTICS {sizeof(csgrt_statistics), "", "", "", "", 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, \
     0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0}
-#define CSGRT_VIEW {sizeof(csgrt_view), 1024, 1024, NULL, 1, 31, NULL, 0, NULL, 1, 0}
+#define CSGRT_VIEW {sizeof(csgrt_view), 1024, 1024, NULL, 1, 31, NULL, 0, NULL, 1, 0, 0, 0}
 #define CSGRT_IMAGE_INFO {sizeof(csgrt_image_info), 0, 0, 0, 0}
 #define CSGRT_PICK {sizeof(csgrt_pick), -1, -1, 0, {0, 0, 0}, {0, 0, 0}, {{0, 0, 0}, {0, 0, 0}}}
 #define CSGRT_VERIFICATION {sizeof(csgrt_verification), "", 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, {{0, 0, 0}, {0, 0, 0}}}

@@ -22,6 +22,13 @@ inline constexpr std::uint32_t display = 32;  ///< RGBA8: as in display_pixels()
 inline constexpr std::uint32_t ghosts = 64;   ///< ghost: the first ghost that the ray passes before the visible surface
 }  // namespace channel
 
+/// The lights of a picture.
+enum class Lighting : std::uint8_t {
+    model,      ///< the model's; if it has none, BRL-CAD's light beside the eye
+    headlight,  ///< BRL-CAD's light beside the eye
+    studio      ///< a light above the eye's shoulder, a weaker one from the other side, and much ambient light
+};
+
 /// A rectangle of a picture's pixels, counted from the top left.
 struct PixelRectangle {
     int left = 0, top = 0, width = 0, height = 0;
@@ -44,6 +51,11 @@ struct View {
     /// values of the ray through the pixel's middle.
     int samples = 1;
     bool transparent = false;  ///< No background: red, green, blue and alpha are 0 where a ray hits nothing.
+    /// Black lines where the region, the surface's direction or its depth changes from pixel to pixel. The lines are a
+    /// pixel wide, on the nearer side, and smooth with several samples. Pixels beyond the border of `part` have no
+    /// effect, and coarse steps have no lines.
+    bool edges = false;
+    Lighting light = Lighting::model;  ///< Where light comes from.
 };
 
 }  // namespace csgrt

@@ -10,12 +10,11 @@ namespace csgrt::python {
 namespace {
 
 /// A member whose values have names in C++ (form/names.hpp), which Python's attribute takes.
-template <class Value, class Names>
-void named(nb::class_<Settings>& bound, const char* name, Value Settings::*member, const Names& names,
-           const char* doc) {
+template <class S, class Value, class Names>
+void named(nb::class_<S>& bound, const char* name, Value S::*member, const Names& names, const char* doc) {
     bound.def_prop_rw(
-        name, [&names, member](const Settings& s) { return std::string(name_of(names, s.*member)); },
-        [&names, member, name = std::string(name)](Settings& s, const std::string& given) {
+        name, [&names, member](const S& s) { return std::string(name_of(names, s.*member)); },
+        [&names, member, name = std::string(name)](S& s, const std::string& given) {
             const auto refusal = [](const std::string& text) { return nb::value_error(text.c_str()); };
             s.*member = value_of(names, name.c_str(), given, refusal);
         },

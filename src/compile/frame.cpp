@@ -152,6 +152,17 @@ dvec3 light_by_eye(const Surroundings& model, const Axes& axes, dvec3 eye, doubl
     return glm::mix(light_of_model(model, axes), at - (distance - near) * axes.back, near / distance);
 }
 
+/// A studio's light: the key from above the eye's left shoulder, a fill from the right, and ambient light, which
+/// surfaces that face the eye have most of. The lights are far away, so that each face of a solid has one shade.
+void add_studio(const Surroundings& model, const Axes& axes, dvec3 center, PreparedFrame& frame) {
+    const double far = 20 * model.half;
+    const dvec3 key = 0.55 * axes.up - 0.45 * axes.right + 0.7 * axes.back,
+                fill = 0.1 * axes.up + 0.8 * axes.right + 0.6 * axes.back;
+    frame.lights = {light_at(from_glm(center + far * key), {0.9, 0.9, 0.9}),
+                    light_at(from_glm(center + far * fill), {0.25, 0.25, 0.25})};
+    frame.frame.ambient = std::max(frame.frame.ambient, 0.6);
+}
+
 void put_clip(const CompiledScene& scene, const std::vector<Plane>& planes, kernel::Frame& frame) {
     if (planes.size() > MOST_CLIPS) refuse("a view has at most " + std::to_string(MOST_CLIPS) + " planes");
     frame.clip_count = static_cast<std::uint32_t>(planes.size());
@@ -254,8 +265,10 @@ PreparedFrame prepare_frame(const CompiledScene& scene, const View& view, double
     const std::uint32_t counts = view.every_partition ? channel::counts : 0;
     frame.channels = view.channels & ((channel::all & ~channel::counts) | counts | channel::display);
 
-    result.lights = scene.lights;
-    if (result.lights.empty()) {
+    if (view.light == Lighting::model) result.lights = scene.lights;
+    if (view.light == Lighting::studio) {
+        add_studio(model, axes, center, result);
+    } else if (result.lights.empty()) {
         const dvec3 at =
             perspective ? light_by_eye(model, axes, eye, 0.5 * result.view_size) : light_of_model(model, axes);
         result.lights.push_back(light_at(from_glm(at), {1, 1, 1}));

@@ -33,6 +33,8 @@ inline constexpr NameOf<std::uint32_t> channel_names[] = {
     {"ids", channel::ids},         {"counts", channel::counts},     {"all", channel::all},
     {"display", channel::display}, {"ghosts", channel::ghosts},
 };
+inline constexpr NameOf<Lighting> lighting_names[] = {
+    {"model", Lighting::model}, {"headlight", Lighting::headlight}, {"studio", Lighting::studio}};
 inline constexpr NameOf<Status> status_names[] = {
     {"usage", Status::usage},         {"scene", Status::scene},
     {"no_device", Status::no_device}, {"out_of_memory", Status::out_of_memory},

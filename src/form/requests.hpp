@@ -155,6 +155,11 @@ inline constexpr auto of<View> = Form{
              {.name = "--samples", .value = "N", .absent = "1"}),
     optional("transparent", &View::transparent, flag,
              "No background: red, green, blue and alpha are 0 where a ray hits nothing.", {.name = "--transparent"}),
+    optional("edges", &View::edges, flag,
+             "Black lines where the region, the surface's direction or its depth changes from pixel to pixel.",
+             {.name = "--edges"}),
+    optional("light", &View::light, Named{&lighting_names}, "Where light comes from.",
+             {.name = "--light", .absent = "model"}),
 };
 
 /// A member's sentence, with its bounds and with the meaning of the number that stands for "not given".

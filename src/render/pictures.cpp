@@ -11,6 +11,7 @@
 #include "base/thread.hpp"
 #include "device/choice.hpp"
 #include "kernel_host/geometry.hpp"
+#include "render/edges.hpp"
 #include "render/image_header.hpp"
 #include "render/renderer_impl.hpp"
 
@@ -79,29 +80,35 @@ const Image& Renderer::Impl::draw_beside(const View& view, const Sampling& sampl
     return beside.image_;
 }
 
+/// As draw_beside(), with the view's edges, whose channels the picture may have, too.
+const Image& Renderer::Impl::draw_with_edges(const View& view, const Sampling& sampling, std::uint32_t channels,
+                                             Watch& watch) {
+    draw_beside(view, sampling, view.edges ? channels | edge_channels : channels, watch);
+    if (view.edges)
+        draw_edges(prepare_frame(scene_of(ClaimingRegions::shown), view, tolerance, sampling), beside.image_,
+                   beside.image_);
+    return beside.image_;
+}
+
 /// Draws every 8th pixel in each direction, then the missing pixels of every 4th, of every 2nd, and all pixels. In each
 /// step drawn pixels also fill the pixels that are still missing. Without `coarse` it draws all pixels at once.
-/// `distances` gets the distances of the pixels, unless it is empty. Returns false if `coarse` ended the drawing.
-bool Renderer::Impl::draw_coarse(const View& view, const PreparedFrame& prepared, Framebuffer& framebuffer,
-                                 std::vector<float>& distances, const std::function<bool(int)>& coarse, Watch& watch) {
+/// With `more` channels it draws all pixels in the last step, and leaves them with these channels in `beside`. Returns
+/// false if `coarse` ended the drawing.
+bool Renderer::Impl::draw_coarse(const View& view, std::uint32_t channels, std::uint32_t more, Framebuffer& framebuffer,
+                                 const std::function<bool(int)>& coarse, Watch& watch) {
     Image& image = framebuffer.image_;
     std::ranges::fill(framebuffer.covered_, std::uint8_t{1});
-    const std::uint32_t channels = prepared.frame.channels | (distances.empty() ? 0 : channel::distance);
-    std::vector<float*> targets;
-    std::size_t own = 0;
-    for (const ChannelSource& source : channel_table)
-        if (channels & source.group)
-            targets.push_back(prepared.frame.channels & source.group ? image.channels[own++].data() : distances.data());
     const auto put = [&](const Sampling& sampling, std::size_t size) {
         if (sampling.column >= image.width || sampling.line >= image.height) return;
-        const Image& part = draw_beside(view, sampling, channels, watch);
+        const Image& part = draw_beside(view, sampling, size == 1 ? channels | more : channels, watch);
         const auto width = static_cast<std::size_t>(image.width), height = static_cast<std::size_t>(image.height);
         const auto columns = static_cast<std::size_t>(part.width), step = static_cast<std::size_t>(sampling.step);
         for_chunks(static_cast<std::size_t>(part.height), 4, 0, [&](std::size_t line, std::size_t end, std::size_t) {
             for (; line < end; ++line)
-                for (std::size_t c = 0; c < part.channels.size(); ++c) {
+                for (std::size_t c = 0, own = 0; c < part.channels.size(); ++c) {
+                    if (own == image.names.size() || image.names[own] != part.names[c]) continue;
                     const std::size_t top = static_cast<std::size_t>(sampling.line) + line * step;
-                    float* const first = targets[c] + top * width;
+                    float* const first = image.channels[own++].data() + top * width;
                     const float* from = part.channels[c].data() + line * columns;
                     if (step == 1) {
                         std::copy_n(from, width, first);
@@ -119,6 +126,7 @@ bool Renderer::Impl::draw_coarse(const View& view, const PreparedFrame& prepared
     put({.step = 8}, 8);
     for (int size = 4; size >= 1; size /= 2) {
         if (!coarse(2 * size)) return false;
+        if (size == 1 && more) return put({}, 1), true;
         const int step = size == 4 ? 8 : 2 * size;
         put({.step = step, .column = size, .line = 0}, static_cast<std::size_t>(size));
         put({.step = step, .column = 0, .line = size}, static_cast<std::size_t>(size));
@@ -147,7 +155,7 @@ void Renderer::Impl::add_samples(const View& view, const PreparedFrame& prepared
         for (int bit = 0; bit < 8; ++bit) reversed += (i >> bit & 1) * std::ldexp(1.0, -1 - bit);
         const Sampling sampling{.right = from_middle(static_cast<double>(i) / view.samples),
                                 .down = from_middle(reversed)};
-        take(i == 0 && has_color ? image : draw_beside(view, sampling, channel::color, watch));
+        take(i == 0 && has_color ? image : draw_with_edges(view, sampling, channel::color, watch));
         for (std::size_t tile = 0; i > 0 && tile < beside.covered_.size(); ++tile)
             framebuffer.covered_[tile] |= beside.covered_[tile];
     }
@@ -226,19 +234,24 @@ void Renderer::Impl::render(const View& view, Framebuffer& framebuffer, const st
     }
     const bool wants_ghosts = view.channels & channel::ghosts,
                has_ghosts = wants_ghosts && model.impl_->has(State::ghost);
-    const bool has_distances = prepared.frame.channels & channel::distance;
-    std::vector<float> distances;  // of the picture, if it has no such channel
-    if (has_ghosts && !has_distances) distances.resize(std::size_t{prepared.frame.width} * prepared.frame.height);
+    const bool has_colors = prepared.frame.channels & (channel::color | channel::display),
+               has_edges = view.edges && has_colors;
+    // Channels that the picture does not have, which edges and ghosts are found by.
+    const std::uint32_t more =
+        ((has_edges ? edge_channels : 0) | (has_ghosts ? channel::distance : 0)) & ~prepared.frame.channels;
+    Image& image = framebuffer.image_;
     bool is_whole = true;
-    if (coarse || !distances.empty())
-        is_whole = draw_coarse(view, prepared, framebuffer, distances, coarse, watch);
+    if (coarse || more)
+        is_whole = draw_coarse(view, prepared.frame.channels, more, framebuffer, coarse, watch);
     else
         draw(prepared, framebuffer, watch);
-    if (view.samples > 1 && is_whole && (prepared.frame.channels & (channel::color | channel::display)))
-        add_samples(view, prepared, framebuffer, watch);
-    Image& image = framebuffer.image_;
     if (wants_ghosts) std::ranges::fill(image.channels.ids(image.channels.size() - 1), 0u);
-    if (has_ghosts) add_ghosts(view, framebuffer, has_distances ? image.channel("Z") : distances, watch);
+    if (is_whole) {
+        const Image& surfaces = more ? beside.image_ : image;
+        if (has_edges) draw_edges(prepared, surfaces, image);
+        if (has_ghosts) add_ghosts(view, framebuffer, surfaces.channel("Z"), watch);
+        if (view.samples > 1 && has_colors) add_samples(view, prepared, framebuffer, watch);
+    }
     image.display_values = settings.display_shading;
     image.attributes.clear();
     image.attributes["csgrt:version"] = version();

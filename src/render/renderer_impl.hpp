@@ -54,8 +54,9 @@ struct Renderer::Impl {
     void fit(Framebuffer& framebuffer, const kernel::Frame& frame, std::uint32_t channels, const Watch& watch) const;
     void draw(const PreparedFrame& prepared, Framebuffer& framebuffer, Watch& watch);
     const Image& draw_beside(const View& view, const Sampling& sampling, std::uint32_t channels, Watch& watch);
-    bool draw_coarse(const View& view, const PreparedFrame& prepared, Framebuffer& framebuffer,
-                     std::vector<float>& distances, const std::function<bool(int)>& coarse, Watch& watch);
+    const Image& draw_with_edges(const View& view, const Sampling& sampling, std::uint32_t channels, Watch& watch);
+    bool draw_coarse(const View& view, std::uint32_t channels, std::uint32_t more, Framebuffer& framebuffer,
+                     const std::function<bool(int)>& coarse, Watch& watch);
     void add_samples(const View& view, const PreparedFrame& prepared, Framebuffer& framebuffer, Watch& watch);
     void add_ghosts(const View& view, Framebuffer& framebuffer, std::span<const float> distances, Watch& watch);
     std::uint32_t word_of(const float (&color)[4]) const;

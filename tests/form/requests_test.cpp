@@ -185,6 +185,7 @@ std::vector<std::string> made_of_header() {
             enumerators("STATE_", state_names),
             enumerators("FASTGEN_", fastgen_names),
             enumerators("CHANNEL_", channel_names),
+            enumerators("LIGHT_", lighting_names),
             enumerators("", operator_names),
             field_enumerators(),
             c_struct<Settings>(),
@@ -244,6 +245,8 @@ std::string default_text(const Value& value) {
         return std::string(name_of(every_precision, value));
     else if constexpr (std::is_same_v<Value, Tolerance>)
         return std::string(name_of(every_tolerance, value));
+    else if constexpr (std::is_same_v<Value, Lighting>)
+        return std::string(name_of(lighting_names, value));
     else
         return "";
 }
@@ -290,8 +293,8 @@ std::string settings_page() {
            list<ChildInfo>("csgrt::ChildInfo") + list<DeviceInfo>("csgrt::DeviceInfo") +
            list<Statistics>("csgrt::Statistics") + "## Names and their numbers\n\n" +
            names_line("Precision", every_precision) + names_line("Tolerance", every_tolerance) +
-           names_line("State", state_names) + names_line("Fastgen", fastgen_names) +
-           names_line("Operator", operator_names) +
+           names_line("Light", lighting_names) + names_line("State", state_names) +
+           names_line("Fastgen", fastgen_names) + names_line("Operator", operator_names) +
            names_line("Channels, whose sum is what a picture has", channel_names) +
            names_line("Status, which is the command's, too", status_names);
 }
