@@ -79,6 +79,28 @@ public:
 
     Chunk& chunk(std::size_t number) { return chunks_[number]; }
 
+    /// Gives an item another position, when the items are sorted: that of the only item of `other`.
+    void replace(std::size_t chunk, std::size_t index, const Chunk& other) {
+        touch(chunk, index);
+        changed_.push_back(chunks_[chunk].of_[index] = other.of_.front());
+        for (const auto& [a, b] : other.joined_) root_[root(a)] = root(b);
+    }
+    /// Says that an item is no longer what it was.
+    void touch(std::size_t chunk, std::size_t index) { changed_.push_back(chunks_[chunk].of_[index]); }
+    /// The items of all shards with an item that has changed since the last call, by chunk and arrival.
+    std::vector<Member> take_changed() {
+        std::array<bool, count> is_changed{};
+        for (const std::uint16_t shard : std::exchange(changed_, {})) is_changed[root(shard)] = true;
+        for (std::uint32_t i = 0; i < count; ++i) is_changed[i] = is_changed[root(static_cast<std::uint16_t>(i))];
+        std::vector<Member> found;
+        for (std::uint32_t c = 0; c < chunks_.size(); ++c)
+            for (std::uint32_t i = 0; i < chunks_[c].of_.size(); ++i)
+                if (is_changed[chunks_[c].of_[i]]) found.push_back({c, i});
+        return found;
+    }
+    /// Frees the lists of members: for_each() has run.
+    void forget_members() { members_ = {}; }
+
     /// Sorts the items by shard, then by arrival, when all chunks are complete.
     void sort() {
         for (const Chunk& chunk : chunks_)
@@ -148,6 +170,7 @@ private:
     std::array<std::uint32_t, count + 1> first_{};  ///< of each shard, among the members
     std::vector<std::uint16_t> by_size_;            ///< shards with members, the largest first
     std::vector<Member> members_;
+    std::vector<std::uint16_t> changed_;
 };
 
 }  // namespace csgrt

@@ -16,21 +16,29 @@ namespace csgrt {
 
 struct Edit::Impl {
     std::shared_ptr<const Model::Impl> before;
-    ModelSource source;          ///< with all edits except appearances
-    std::optional<Scene> scene;  ///< replaces the source's scene, if an edit changes it
-    std::vector<Look> looks;     ///< in addition to the source's appearances
+    ModelSource source;                 ///< with all edits except appearances
+    std::shared_ptr<Scene> scene = {};  ///< replaces the source's scene, if an edit changes it
+    std::vector<Look> looks = {};       ///< in addition to the source's appearances
 
     Scene& changed() {
-        if (scene) return *scene;
-        scene = *source.scene;
-        if (source.objects.empty()) scene->top = top_objects(*scene);  // so that no edit changes them
+        if (!scene) {
+            scene = std::make_shared<Scene>(changed_scene(*source.scene, source.changes));
+            source.changes = {};
+            if (source.objects.empty()) scene->top = top_objects(*scene);  // so that no edit changes them
+        }
+        if (scene.use_count() > 1) scene = std::make_shared<Scene>(*scene);  // a Model shares it
         return *scene;
     }
+    /// Calls change(names, rendered, changes), which adds to the changes beside the scene and returns whether that
+    /// suffices. `names`: of the scene without the changes. False: the scene has to be copied.
+    template <class Change>
+    bool beside(const Change& change);
     std::vector<std::string>& rendered() { return source.objects.empty() ? changed().top : source.objects; }
     /// The number of a path among them, or -1. Throws if it is all that is rendered.
     std::ptrdiff_t root(const std::string& path);
     void add(Look look);
     bool changes_tables_alone() const;
+    std::optional<CompiledScene> compiled_in_part() const;
     ModelSource next() const;
 };
 
@@ -72,7 +80,16 @@ void check_values(const Scene& values) {
 
 }  // namespace
 
-Edit::Edit(Model model) : impl_(new Impl{model.impl_, model.impl_->source, {}, {}}) {}
+template <class Change>
+bool Edit::Impl::beside(const Change& change) {
+    const std::unique_lock lock(source.kept->mutex, std::try_to_lock);
+    const Compilation* const compilation = lock ? source.kept->of.get() : nullptr;
+    if (scene || compilation == nullptr || compilation->scene() != source.scene) return false;
+    const Names& names = compilation->names();
+    return change(names, source.objects.empty() ? names.top_objects() : source.objects, source.changes);
+}
+
+Edit::Edit(Model model) : impl_(new Impl{.before = model.impl_, .source = model.impl_->source}) {}
 Edit::~Edit() = default;
 Edit::Edit(Edit&&) noexcept = default;
 Edit& Edit::operator=(Edit&&) noexcept = default;
@@ -122,12 +139,20 @@ Edit& Edit::set_background(const Vec3& color) {
 
 Edit& Edit::set_matrix(const std::string& path, const Matrix& matrix, Share share) {
     const FloatingPoint own;
+    const auto beside = [&](const Names& names, const std::vector<std::string>& rendered, SceneChanges& changes) {
+        return place_beside(names, rendered, path, matrix, share == Share::alone, changes);
+    };
+    if (impl_->beside(beside)) return *this;
     place_object(impl_->changed(), impl_->rendered(), path, matrix, share == Share::alone);
     return *this;
 }
 
 Edit& Edit::move(const std::string& path, const Matrix& matrix, Share share) {
     const FloatingPoint own;
+    const auto beside = [&](const Names& names, const std::vector<std::string>& rendered, SceneChanges& changes) {
+        return move_beside(names, rendered, path, matrix, share == Share::alone, changes);
+    };
+    if (impl_->beside(beside)) return *this;
     Scene& scene = impl_->changed();
     if (normal_path(path) != "/") {
         move_object(scene, impl_->rendered(), path, matrix, share == Share::alone);
@@ -182,6 +207,10 @@ Edit& Edit::add(const std::string& combination, Operator op, const std::string& 
 
 Edit& Edit::remove(const std::string& path) {
     const FloatingPoint own;
+    const auto beside = [&](const Names& names, const std::vector<std::string>& rendered, SceneChanges& changes) {
+        return remove_beside(names, rendered, path, changes);
+    };
+    if (impl_->beside(beside)) return *this;
     const std::ptrdiff_t root = impl_->root(path);
     if (root < 0) {
         remove_member(impl_->changed(), path);
@@ -202,8 +231,8 @@ Edit& Edit::erase(const std::string& path) {
     return *this;
 }
 
-/// Whether only tables change. They do not suffice if a region begins or ceases to emit light, since its number may
-/// change.
+/// Whether only tables of regions change, apart from the changes beside the scene. They do not suffice if a region
+/// begins or ceases to emit light, since its number may change.
 bool Edit::Impl::changes_tables_alone() const {
     if (scene) return false;
     return std::ranges::none_of(looks, [&](const Look& look) {
@@ -212,6 +241,17 @@ bool Edit::Impl::changes_tables_alone() const {
                     return is_at_or_below(before->scene.region_info[light.region].path, look.path);
                 }));
     });
+}
+
+/// The compiled scene with the changes beside the scene. Nothing: the scene has to be compiled anew.
+std::optional<CompiledScene> Edit::Impl::compiled_in_part() const {
+    if (source.changes == before->source.changes) return before->scene;
+    const std::unique_lock lock(source.kept->mutex, std::try_to_lock);
+    if (!lock || source.kept->of == nullptr || source.kept->of->scene() != source.scene) return {};
+    std::unique_ptr<Compilation> of = std::move(source.kept->of);
+    std::optional<CompiledScene> made = of->with(source.changes, before->scene, before->source.changes);
+    if (made) source.kept->of = std::move(of);
+    return made;
 }
 
 ModelSource Edit::Impl::next() const {
@@ -228,14 +268,18 @@ Model Edit::commit() const {
     // Looks were checked when they were set.
     check_values({.lights = source.lights, .ambient = source.ambient, .background = source.background});
     std::shared_ptr<const Model::Impl> made;
-    if (edit.changes_tables_alone()) {
-        CompiledScene painted =
-            repainted(edit.before->scene, edit.looks, {source.lights, source.ambient, source.background});
+    std::optional<CompiledScene> placed;
+    if (edit.changes_tables_alone()) placed = edit.compiled_in_part();
+    if (placed) {
+        CompiledScene painted = repainted(*placed, edit.looks, {source.lights, source.ambient, source.background});
         made = std::make_shared<Model::Impl>(std::move(source), std::move(painted), *edit.before);
     } else {
-        Scene whole = edit.scene ? *edit.scene : *source.scene;
-        source.put_appearance(whole);
-        source.scene = std::make_shared<const Scene>(std::move(whole));
+        std::shared_ptr<Scene> whole = edit.scene;
+        if (!whole) whole = std::make_shared<Scene>(changed_scene(*source.scene, source.changes));
+        if (whole.use_count() > 2) whole = std::make_shared<Scene>(*whole);  // a Model shares it
+        source.changes = {};
+        source.put_appearance(*whole);
+        source.scene = std::move(whole);
         made = std::make_shared<Model::Impl>(std::move(source));
         for (const Look& look : edit.looks) regions_at(made->scene, look.path);
     }

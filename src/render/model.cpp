@@ -59,14 +59,22 @@ double tolerance_of(const CompiledScene& scene, const Settings& settings) {
 
 namespace {
 
+/// The most instances of which a compilation is kept, which takes half a kilobyte each.
+constexpr std::size_t most_kept = 250'000;
+
 CompiledScene compiled(const ModelSource& source) {
     const Settings& settings = source.settings;
     check_numbers(settings);
-    return compile(*source.scene, source.objects,
-                   {.air = settings.air,
-                    .skip_unsupported = settings.skip_unsupported,
-                    .display_shading = settings.display_shading,
-                    .max_instances = settings.max_instances});
+    auto made = std::make_unique<Compilation>(source.scene, source.objects,
+                                              CompileOptions{.air = settings.air,
+                                                             .skip_unsupported = settings.skip_unsupported,
+                                                             .display_shading = settings.display_shading,
+                                                             .max_instances = settings.max_instances},
+                                              most_kept);
+    CompiledScene scene = made->compiled();
+    if (!made->is_kept()) made = nullptr;
+    if (const std::unique_lock lock(source.kept->mutex, std::try_to_lock); lock) std::swap(source.kept->of, made);
+    return scene;
 }
 
 double tolerance_in_double(const CompiledScene& scene, Settings settings) {
@@ -113,7 +121,10 @@ void Model::Impl::trace(const RayList& list, RowReceiver& receiver, ClaimingRegi
 Model::Model(Scene scene, const std::vector<std::string>& objects, const Settings& settings) {
     const FloatingPoint own;
     const AllowedThreads allowed(settings.threads);
-    ModelSource source{std::make_shared<const Scene>(std::move(scene)), {}, {}, 0, {}, objects, settings};
+    ModelSource source{.scene = std::make_shared<const Scene>(std::move(scene)),
+                       .objects = objects,
+                       .settings = settings,
+                       .kept = std::make_shared<KeptCompilation>()};
     source.settings.progress = nullptr;
     source.looks = source.scene->looks;
     source.lights = source.scene->lights;
@@ -129,7 +140,7 @@ const std::vector<Warning>& Model::warnings() const { return impl_->scene.warnin
 double Model::tolerance() const { return impl_->tolerance; }
 
 Scene Model::scene() const {
-    Scene scene = *impl_->source.scene;
+    Scene scene = changed_scene(*impl_->source.scene, impl_->source.changes);
     impl_->source.put_appearance(scene);
     return scene;
 }

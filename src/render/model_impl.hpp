@@ -12,6 +12,7 @@
 
 #include "base/floating_point.hpp"
 #include "base/thread.hpp"
+#include "compile/compilation.hpp"
 #include "compile/compiled_scene.hpp"
 #include "pipeline/passes/native_tracer.hpp"
 #include "rays/calls.hpp"
@@ -41,17 +42,26 @@ private:
     mutable std::optional<Reference> reference_;
 };
 
+/// The last compilation of a Model and of the Models that edits make of it: they share it. A thread that finds it
+/// locked compiles without it: no thread waits, nor does a child of fork().
+struct KeptCompilation {
+    std::mutex mutex;
+    std::unique_ptr<Compilation> of;  ///< null: none is kept
+};
+
 /// The input of a Model.
 struct ModelSource {
     std::shared_ptr<const Scene> scene;  ///< without its appearances, lights, ambient light and background
-    std::vector<Look> looks;
-    std::vector<Light> lights;
-    double ambient;
-    Vec3 background;
+    SceneChanges changes = {};           ///< of the scene, kept beside it
+    std::vector<Look> looks = {};
+    std::vector<Light> lights = {};
+    double ambient = 0;
+    Vec3 background = {};
     std::vector<std::string> objects;
     Settings settings;
+    std::shared_ptr<KeptCompilation> kept;
 
-    /// Copies the members below into a scene.
+    /// Copies the members above into a scene, from `looks` to `background`.
     void put_appearance(Scene& to) const {
         to.looks = looks;
         to.lights = lights;
@@ -82,7 +92,7 @@ struct Model::Impl final : ListTracer {
     }
     bool shows_all() const { return !has(State::ghost) && !has(State::hidden); }
     bool has(State state) const;
-    /// The names of the source's scene, found when they are first needed. Any thread.
+    /// The names of the source's scene with its changes, found when they are first needed. Any thread.
     const Names& names() const;
 
     void trace(const RayList& list, RowReceiver& receiver, ClaimingRegions claims) const override;
@@ -99,6 +109,7 @@ private:
 
     std::optional<CallerTracer> all_;
     mutable std::once_flag has_names_;
+    mutable std::shared_ptr<const Scene> named_scene_;
     mutable std::optional<Names> names_;
     mutable std::mutex mutex_;  ///< guards the next member
     mutable std::weak_ptr<const CompiledScene> claimed_[2];

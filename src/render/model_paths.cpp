@@ -36,7 +36,14 @@ std::vector<Operator> joints(const std::vector<TreeNode>& nodes) {
 }  // namespace
 
 const Names& Model::Impl::names() const {
-    std::call_once(has_names_, [&] { names_.emplace(*source.scene); });
+    std::call_once(has_names_, [&] {
+        const SceneChanges& changes = source.changes;
+        // The name of a removed member may lead to another member now, so paths need a tree without removed members.
+        const bool has_trees = changes.removed.empty();
+        named_scene_ = has_trees ? source.scene : std::make_shared<const Scene>(changed_scene(*source.scene, changes));
+        names_.emplace(*named_scene_);
+        if (has_trees) names_->set_matrices(changes.matrices);
+    });
     return *names_;
 }
 
@@ -48,24 +55,24 @@ std::int32_t Model::region(const std::string& path) const {
 
 Matrix Model::matrix_of(const std::string& path) const {
     const FloatingPoint own;
-    const Scene& scene = *impl_->source.scene;
     const Names& names = impl_->names();
+    const Scene& scene = names.scene();
     const ObjectPath found = follow_path(scene, names, path);
     return csgrt::matrix_of(names, found, found.steps.size() - 1);
 }
 
 Matrix Model::placement_of(const std::string& path) const {
     const FloatingPoint own;
-    const Scene& scene = *impl_->source.scene;
     const Names& names = impl_->names();
+    const Scene& scene = names.scene();
     const ObjectPath found = follow_path(scene, names, path);
     return csgrt::placement_of(names, found, found.steps.size() - 1);
 }
 
 std::vector<ChildInfo> Model::children(const std::string& path) const {
     const FloatingPoint own;
-    const Scene& scene = *impl_->source.scene;
     const Names& names = impl_->names();
+    const Scene& scene = names.scene();
     std::vector<ChildInfo> found;
     const auto add = [&](std::string way, std::string name, std::uint32_t object, Operator op) {
         const Object& child = scene.objects[object];

@@ -1,6 +1,8 @@
 #include "scene/edit_scene.hpp"
 
 #include <algorithm>
+#include <iterator>
+#include <map>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -40,14 +42,25 @@ std::string free_name(const std::string& like, const Names& names, const std::un
     return name;
 }
 
+/// For each object, the number of members that name it.
+std::vector<std::uint32_t> users_of(const Scene& scene, const Names& names) {
+    std::vector<std::uint32_t> users(scene.objects.size());
+    for (std::uint32_t object = 0; object < scene.objects.size(); ++object) {
+        const std::span<const std::uint32_t> children = names.children(object);
+        for (std::uint32_t node = 0; node < children.size(); ++node) {
+            std::uint32_t child = children[node];
+            if (child == Names::left_out) child = names.find(names.node(object, node).object);
+            if (child < Names::left_out) ++users[child];
+        }
+    }
+    return users;
+}
+
 /// Copies combinations that an instance shares with other instances, so that an edit changes this instance only.
 class Unsharer {
 public:
     Unsharer(Scene& scene, const Names& names, const std::vector<std::string>& rendered)
-        : scene_(scene), names_(names), users_(scene.objects.size()), is_rendered_(scene.objects.size()) {
-        for (std::uint32_t object = 0; object < scene.objects.size(); ++object)
-            for (const std::uint32_t child : names.children(object))
-                if (child < Names::left_out) ++users_[child];
+        : scene_(scene), names_(names), users_(users_of(scene, names)), is_rendered_(scene.objects.size()) {
         for (const std::string& root : rendered)
             if (const ObjectPath path = find_path(scene, names, root); !path.steps.empty())
                 is_rendered_[path.object()] = true;
@@ -186,6 +199,55 @@ void place(Scene& scene, const Names& names, const std::vector<std::string>& ren
     tree_of(scene, steps[steps.size() - 2].object).nodes[steps.back().node].matrix = matrix;
 }
 
+/// Removes leaves of a tree; `leaves` ascend.
+void remove_leaves(Scene& scene, const Names& names, std::uint32_t parent, const std::vector<std::uint32_t>& leaves) {
+    Tree& tree = tree_of(scene, parent);
+    for (std::uint32_t i = 0; i < tree.nodes.size(); ++i)  // numbered names of other leaves must not change
+        if (tree.nodes[i].op == Operator::leaf && names.member_name(parent, i) != tree.nodes[i].object)
+            tree.nodes[i].name = names.member_name(parent, i);
+    for (auto leaf = leaves.rbegin(); leaf != leaves.rend(); ++leaf) remove_leaf(tree, *leaf);
+}
+
+/// The objects along a path that ends with a member. No steps: the path leads to no member, or through a removed
+/// member, whose name may lead to another member now.
+ObjectPath find_member(const Names& names, const std::string& path, const SceneChanges& changes) {
+    ObjectPath found = find_path(names.scene(), names, path);
+    const std::vector<ObjectPath::Step>& steps = found.steps;
+    bool is_there = steps.size() > 1;
+    for (std::size_t i = 1; i < steps.size(); ++i)
+        is_there = is_there && !changes.removed.contains({steps[i - 1].object, steps[i].node});
+    if (!is_there) found.steps.clear();
+    return found;
+}
+
+/// Whether an edit of the last member of a path changes this instance alone, without copies of combinations.
+bool is_alone(const Names& names, const std::vector<std::string>& rendered,
+              const std::vector<ObjectPath::Step>& steps) {
+    const std::vector<std::uint32_t> users = users_of(names.scene(), names);
+    if (users[steps.front().object] > 0) return false;
+    for (std::size_t i = 1; i + 1 < steps.size(); ++i)
+        if (users[steps[i].object] > 1) return false;
+    for (const std::string& root : rendered)
+        if (const ObjectPath other = find_path(names.scene(), names, root); !other.steps.empty())
+            for (std::size_t i = 1; i + 1 < steps.size(); ++i)
+                if (steps[i].object == other.object()) return false;
+    return true;
+}
+
+/// The last member of the steps of a path.
+Member member_of(const std::vector<ObjectPath::Step>& steps) {
+    return {steps[steps.size() - 2].object, steps.back().node};
+}
+
+/// The matrix of a path's last step that makes its placement `matrix` times the present placement. Nothing: a matrix
+/// above it cannot be inverted.
+std::optional<Matrix> moved_matrix(const Names& names, const ObjectPath& path, const Matrix& matrix,
+                                   const MemberMatrices& moved) {
+    const std::size_t last = path.steps.size() - 1;
+    const Matrix whole = compose(matrix, placement_of(names, path, last, moved));
+    return last == 0 ? whole : divide(placement_of(names, path, last - 1, moved), whole);
+}
+
 }  // namespace
 
 void place_object(Scene& scene, const std::vector<std::string>& rendered, const std::string& path, const Matrix& matrix,
@@ -199,9 +261,7 @@ void move_object(Scene& scene, const std::vector<std::string>& rendered, const s
                  bool alone) {
     const Names names(scene);
     ObjectPath found = follow_path(scene, names, path);
-    const std::size_t last = found.steps.size() - 1;
-    std::optional<Matrix> own = compose(matrix, placement_of(names, found, last));
-    if (last > 0) own = divide(placement_of(names, found, last - 1), *own);
+    const std::optional<Matrix> own = moved_matrix(names, found, matrix, {});
     if (!own)
         refuse("a matrix above '" + path + "' cannot be inverted, so that nothing below it can be moved",
                "give that part another matrix first (set_matrix)");
@@ -211,12 +271,57 @@ void move_object(Scene& scene, const std::vector<std::string>& rendered, const s
 void remove_member(Scene& scene, const std::string& path) {
     const Names names(scene);
     const std::vector<ObjectPath::Step> steps = follow_to_member(scene, names, path).steps;
-    const std::uint32_t parent = steps[steps.size() - 2].object, leaf = steps.back().node;
-    Tree& tree = tree_of(scene, parent);
-    for (std::uint32_t i = 0; i < tree.nodes.size(); ++i)  // numbered names of other leaves must not change
-        if (tree.nodes[i].op == Operator::leaf && names.member_name(parent, i) != tree.nodes[i].object)
-            tree.nodes[i].name = names.member_name(parent, i);
-    remove_leaf(tree, leaf);
+    remove_leaves(scene, names, steps[steps.size() - 2].object, {steps.back().node});
+}
+
+Scene changed_scene(const Scene& scene, const SceneChanges& changes) {
+    Scene changed = scene;
+    for (const auto& [member, matrix] : changes.matrices)
+        tree_of(changed, member.first).nodes[member.second].matrix = matrix;
+    if (changes.removed.empty()) return changed;
+    const Names names(scene);
+    if (changed.top.empty()) changed.top = names.top_objects();  // a removed object does not become a top object
+    std::map<std::uint32_t, std::vector<std::uint32_t>> leaves;
+    for (const auto& [parent, leaf] : changes.removed) leaves[parent].push_back(leaf);
+    for (const auto& [parent, of] : leaves) remove_leaves(changed, names, parent, of);
+    return changed;
+}
+
+bool place_beside(const Names& names, const std::vector<std::string>& rendered, const std::string& path,
+                  const Matrix& matrix, bool alone, SceneChanges& changes) {
+    const ObjectPath found = find_member(names, path, changes);
+    if (found.steps.empty() || (alone && !is_alone(names, rendered, found.steps))) return false;
+    changes.matrices[member_of(found.steps)] = matrix;
+    return true;
+}
+
+bool move_beside(const Names& names, const std::vector<std::string>& rendered, const std::string& path,
+                 const Matrix& matrix, bool alone, SceneChanges& changes) {
+    const ObjectPath found = find_member(names, path, changes);
+    if (found.steps.empty() || (alone && !is_alone(names, rendered, found.steps))) return false;
+    const std::optional<Matrix> own = moved_matrix(names, found, matrix, changes.matrices);
+    if (own) changes.matrices[member_of(found.steps)] = *own;
+    return own.has_value();
+}
+
+bool remove_beside(const Names& names, const std::vector<std::string>& rendered, const std::string& path,
+                   SceneChanges& changes) {
+    const std::vector<ObjectPath::Step> steps = find_member(names, path, changes).steps;
+    if (steps.empty()) return false;
+    const auto [parent, leaf] = member_of(steps);
+    for (const std::string& root : rendered) {
+        const std::vector<ObjectPath::Step> other = find_path(names.scene(), names, root).steps;
+        for (std::size_t i = 1; i < other.size(); ++i)
+            if (other[i - 1].object == parent && other[i].node == leaf) return false;  // a root would lead nowhere
+    }
+    const std::vector<TreeNode>& nodes = std::get<Combination>(names.scene().objects[parent]).tree.nodes;
+    const auto removed =
+        std::distance(changes.removed.lower_bound({parent, 0}), changes.removed.lower_bound({parent + 1, 0}));
+    const std::size_t operands = nodes.size() - 1, left = operands - static_cast<std::size_t>(removed);
+    const bool is_union = nodes.back().op == Operator::union_ && nodes.back().arity == operands;
+    if (!is_union || left < 2) return false;
+    changes.removed.insert({parent, leaf});
+    return true;
 }
 
 void add_member(Scene& scene, const std::string& path, Operator op, const std::string& object, const Matrix& matrix) {

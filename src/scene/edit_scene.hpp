@@ -1,10 +1,13 @@
 // Edits of a scene's trees, which leave the paths of all other instances unchanged.
 #pragma once
 
+#include <set>
 #include <string>
 #include <vector>
 
 #include <csgrt/scene.hpp>
+
+#include "scene/names.hpp"
 
 namespace csgrt {
 
@@ -35,5 +38,23 @@ void replace_shape(Scene& scene, const std::string& path, Shape shape, const Mat
 /// Removes a path, deletes its object, and what is below it and has no other use. Of the `rendered` objects the path
 /// may be one; the caller takes it from their list.
 void erase_object(Scene& scene, const std::vector<std::string>& rendered, const std::string& path);
+
+/// Changes that are kept beside a scene, so that the scene need not be copied.
+struct SceneChanges {
+    MemberMatrices matrices;   ///< replace the matrices of members
+    std::set<Member> removed;  ///< operands of unions, each of which keeps another operand
+    bool operator==(const SceneChanges&) const = default;
+};
+/// Returns the scene with the changes.
+Scene changed_scene(const Scene& scene, const SceneChanges& changes);
+// The functions below add to `changes` what place_object(), move_object() and remove_member() change in a scene with
+// the changes. `names`: the names of the scene without them. False, and nothing has changed: the path leads to no
+// member, or the edit needs a copy of the scene.
+bool place_beside(const Names& names, const std::vector<std::string>& rendered, const std::string& path,
+                  const Matrix& matrix, bool alone, SceneChanges& changes);
+bool move_beside(const Names& names, const std::vector<std::string>& rendered, const std::string& path,
+                 const Matrix& matrix, bool alone, SceneChanges& changes);
+bool remove_beside(const Names& names, const std::vector<std::string>& rendered, const std::string& path,
+                   SceneChanges& changes);
 
 }  // namespace csgrt

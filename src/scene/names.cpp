@@ -4,6 +4,7 @@
 #include <atomic>
 #include <bit>
 #include <functional>
+#include <iterator>
 #include <mutex>
 #include <unordered_map>
 #include <unordered_set>
@@ -58,6 +59,17 @@ void Names::name_members(std::uint32_t object, const std::vector<TreeNode>& node
     }
     if (!std::is_sorted(sorted.begin(), sorted.end())) std::sort(sorted.begin(), sorted.end());
     if (is_simple && std::adjacent_find(sorted.begin(), sorted.end()) == sorted.end()) return;
+    const bool are_plain = !has_ambiguous_names_ &&
+                           std::ranges::all_of(nodes, [](const TreeNode& node) { return node.name.empty(); }) &&
+                           (sorted.empty() || sorted.back() != none);
+    if (are_plain) {  // no other name looks like a number
+        std::unordered_map<std::uint32_t, std::uint32_t> uses;
+        for (std::uint32_t k = 0; k < nodes.size(); ++k)
+            if (nodes[k].op == Operator::leaf)
+                if (const std::uint32_t number = ++uses[own[k]]; number > 1)
+                    found.emplace_back(Member(object, k), numbered(nodes[k].object, number));
+        return;
+    }
     std::unordered_set<std::string> taken;
     for (const TreeNode& node : nodes)
         if (!node.name.empty()) taken.insert(node.name);
@@ -73,7 +85,7 @@ void Names::name_members(std::uint32_t object, const std::vector<TreeNode>& node
                 name = numbered(base, ++number);
             } while (!taken.insert(name).second);
         }
-        if (name != nodes[k].object) found.emplace(std::pair(object, k), std::move(name));
+        if (name != nodes[k].object) found.emplace_back(Member(object, k), std::move(name));
     }
 }
 
@@ -96,6 +108,7 @@ Names::Names(const Scene& scene) : scene_(scene), first_child_(scene.objects.siz
             kinds_[i] = kind_of(scene.objects[i]);
         }
     });
+    has_ambiguous_names_ = is_ambiguous;
     std::uint64_t children = 0;
     for (std::size_t object = 0; object < count; ++object) {
         constexpr std::size_t soon = 16;
@@ -141,11 +154,25 @@ Names::Names(const Scene& scene) : scene_(scene), first_child_(scene.objects.siz
             name_members(static_cast<std::uint32_t>(i), nodes, sorted, members);
         }
         const std::lock_guard lock(mutex);
-        member_names_.merge(members);
+        std::ranges::move(members, std::back_inserter(member_names_));
     });
+    const auto before = [](const auto& a, const auto& b) { return a.first < b.first; };
+    if (!std::ranges::is_sorted(member_names_, before)) std::ranges::sort(member_names_, before);
     for (const auto& [member, name] : member_names_)
         if (!node(member.first, member.second).name.empty()) is_ambiguous = true;
     has_ambiguous_names_ = is_ambiguous;
+}
+
+std::uint32_t Names::member(std::uint32_t object, std::string_view name) const {
+    for (auto entry = first_name({object, 0}); entry != member_names_.end() && entry->first.first == object; ++entry)
+        if (entry->second == name) return entry->first.second;
+    const std::uint32_t named = find(name);
+    const std::span<const std::uint32_t> all = children(object);
+    for (std::uint32_t k = 0; k < all.size(); ++k) {
+        const bool may_be = all[k] == named || all[k] == none || all[k] == left_out;
+        if (may_be && all[k] != operation && member_name(object, k) == name) return k;
+    }
+    return none;
 }
 
 std::vector<std::string> Names::top_objects() const {

@@ -1,6 +1,7 @@
 // Names: an index of a scene's objects by name, with the object that each leaf of a tree names.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <map>
 #include <span>
@@ -17,6 +18,11 @@ namespace csgrt {
 /// "name@2": the second object with the name.
 std::string numbered(std::string name, std::uint32_t number);
 
+/// A leaf: a combination, and the node of its tree.
+using Member = std::pair<std::uint32_t, std::uint32_t>;
+/// Matrices that replace the matrices of leaves in a scene.
+using MemberMatrices = std::map<Member, Matrix>;
+
 /// An index of names. The scene must not change or be destroyed while the index is used.
 class Names {
 public:
@@ -32,11 +38,26 @@ public:
     const TreeNode& node(std::uint32_t object, std::size_t node) const {
         return std::get<Combination>(scene_.objects[object]).tree.nodes[node];
     }
+    const Scene& scene() const { return scene_; }
+    /// The matrix of a leaf, or the matrix that replaces it in `moved`.
+    const Matrix& matrix(std::uint32_t object, std::size_t node, const MemberMatrices& moved) const {
+        if (!moved.empty())
+            if (const auto found = moved.find(Member(object, static_cast<std::uint32_t>(node))); found != moved.end())
+                return found->second;
+        return this->node(object, node).matrix;
+    }
+    const Matrix& matrix(std::uint32_t object, std::size_t node) const { return matrix(object, node, moved_); }
+    /// The matrices that replace those of the scene.
+    const MemberMatrices& moved() const { return moved_; }
+    void set_matrices(const MemberMatrices& moved) { moved_ = moved; }
     /// The name of a leaf in paths (TreeNode::name), which no other leaf of its tree has.
     const std::string& member_name(std::uint32_t object, std::size_t node) const {
-        const auto found = member_names_.find(std::pair(object, static_cast<std::uint32_t>(node)));
-        return found != member_names_.end() ? found->second : this->node(object, node).object;
+        const auto found = first_name({object, static_cast<std::uint32_t>(node)});
+        const bool is_its = found != member_names_.end() && found->first == Member(object, node);
+        return is_its ? found->second : this->node(object, node).object;
     }
+    /// The node of the leaf with a name; Names::none if there is no such leaf.
+    std::uint32_t member(std::uint32_t object, std::string_view name) const;
     /// The matrix of an object that is rendered by its name (Scene::top_matrices); else the identity.
     const Matrix& top_matrix(std::uint32_t object) const {
         const auto found = top_.find(object);
@@ -67,9 +88,13 @@ private:
         std::uint32_t hash, object;  // Names::none: the slot is empty
     };
 
-    using MemberNames = std::map<std::pair<std::uint32_t, std::uint32_t>, std::string>;
+    using MemberNames = std::vector<std::pair<Member, std::string>>;
 
     static std::uint32_t hash_of(std::string_view name);
+    MemberNames::const_iterator first_name(const Member& from) const {
+        return std::lower_bound(member_names_.begin(), member_names_.end(), from,
+                                [](const auto& entry, const Member& member) { return entry.first < member; });
+    }
     void name_members(std::uint32_t object, const std::vector<TreeNode>& nodes, std::vector<std::uint32_t>& sorted,
                       MemberNames& found) const;
     std::uint32_t find(std::string_view name, std::uint32_t hash) const;
@@ -80,7 +105,8 @@ private:
     std::vector<std::uint64_t> first_child_;  // for each object, and one more: where its tree's nodes begin in
                                               // `children_`
     std::vector<Kind> kinds_;                 // for each object
-    MemberNames member_names_;                // names of members that differ from their objects' names
+    MemberMatrices moved_;
+    MemberNames member_names_;  // names of members that differ from their objects' names, sorted by member
     std::unordered_map<std::uint32_t, std::uint32_t> top_;  // for objects of Scene::top: the index there
     bool has_ambiguous_names_ = false;
     std::vector<std::uint32_t> children_;

@@ -104,8 +104,10 @@ private:
                 return std::nullopt;
             });
         };
-        auto found =
-            find_member([&](std::uint32_t i, std::string_view name) { return names_.member_name(from, i) == name; });
+        auto found = longest([&](std::string_view name) -> std::optional<std::uint32_t> {
+            const std::uint32_t node = names_.member(from, name);
+            return node == Names::none ? std::nullopt : std::optional(node);
+        });
         if (!found)
             found = find_member(
                 [&](std::uint32_t i, std::string_view name) { return combination->tree.nodes[i].object == name; });
@@ -116,10 +118,10 @@ private:
             return fail("'" + above + "' has no member '" + std::string(part()) + "'", std::move(suggestion));
         }
         const std::uint32_t object = names_.child(from, *found);
-        if (object == Names::none) {
-            const std::string& name = combination->tree.nodes[*found].object;
+        const std::string& name = combination->tree.nodes[*found].object;
+        if (object == Names::left_out) return fail("'" + above + "' uses '" + name + "', which is left out", {});
+        if (object == Names::none)
             return fail("'" + above + "' uses '" + name + "', which does not exist", did_you_mean_object(scene_, name));
-        }
         path_.steps.push_back({object, *found});
     }
 
@@ -176,13 +178,21 @@ std::string normal_path(const std::string& path) {
 }
 
 const Matrix& matrix_of(const Names& names, const ObjectPath& path, std::size_t step) {
-    if (step == 0) return names.top_matrix(path.steps[0].object);
-    return names.node(path.steps[step - 1].object, path.steps[step].node).matrix;
+    return matrix_of(names, path, step, names.moved());
 }
 
 Matrix placement_of(const Names& names, const ObjectPath& path, std::size_t step) {
-    Matrix matrix = matrix_of(names, path, 0);
-    for (std::size_t i = 1; i <= step; ++i) matrix = compose(matrix, matrix_of(names, path, i));
+    return placement_of(names, path, step, names.moved());
+}
+
+const Matrix& matrix_of(const Names& names, const ObjectPath& path, std::size_t step, const MemberMatrices& moved) {
+    if (step == 0) return names.top_matrix(path.steps[0].object);
+    return names.matrix(path.steps[step - 1].object, path.steps[step].node, moved);
+}
+
+Matrix placement_of(const Names& names, const ObjectPath& path, std::size_t step, const MemberMatrices& moved) {
+    Matrix matrix = matrix_of(names, path, 0, moved);
+    for (std::size_t i = 1; i <= step; ++i) matrix = compose(matrix, matrix_of(names, path, i, moved));
     return matrix;
 }
 

@@ -48,6 +48,9 @@ inline bool is_at_or_below(std::string_view region, std::string_view path) {
 const Matrix& matrix_of(const Names& names, const ObjectPath& path, std::size_t step);
 /// From the coordinates of the object at step `step` of a path to the world's.
 Matrix placement_of(const Names& names, const ObjectPath& path, std::size_t step);
+// The same with matrices that replace the matrices of members.
+const Matrix& matrix_of(const Names& names, const ObjectPath& path, std::size_t step, const MemberMatrices& moved);
+Matrix placement_of(const Names& names, const ObjectPath& path, std::size_t step, const MemberMatrices& moved);
 
 /// The suggestion for a misspelt name of an object; see did_you_mean.
 std::string did_you_mean_object(const Scene& scene, std::string_view wrong);

@@ -307,6 +307,66 @@ TEST_CASE("a move is one of the world, whatever stands above", "[promise:edits]"
           }).starts_with("a matrix above '/all/wheel@2/hub.r' cannot be inverted, so that nothing below it can be"));
 }
 
+TEST_CASE("what is compiled by itself is told by paths, and keeps colours and states", "[promise:edits]") {
+    // The two balls at the ends keep the model's extent; no two parts share a place along any axis.
+    const Model model(parse_scene(R"({"csgrt": 1,
+        "solids": {"low": {"type": "sphere", "center": [-300, -300, -300], "radius": 10},
+                   "high": {"type": "sphere", "center": [300, 300, 300], "radius": 10},
+                   "ball": {"type": "sphere", "center": [0, 0, 0], "radius": 10},
+                   "box": {"type": "box", "low": [0, 1, -20], "high": [8, 11, 34]},
+                   "tub": {"type": "sphere", "center": [-90, -80, -70], "radius": 18}},
+        "combinations": {
+            "ends.r": {"region": true, "id": 1, "tree": {"union": ["low", "high"]}},
+            "hub.r": {"region": true, "id": 2, "tree": "ball"},
+            "rim.r": {"region": true, "id": 3, "tree": {"difference": ["box", "ball"]}},
+            "tub.r": {"region": true, "id": 4, "tree": "tub"},
+            "wheel": {"tree": {"union": ["hub.r", "rim.r"]}},
+            "car": {"tree": {"union": ["wheel", {"object": "wheel", "translate": [70, 80, 90]}, "tub.r"]}},
+            "all": {"tree": {"union": ["ends.r", "car"]}}}})",
+                                  "yard.json"));
+    const std::string second = "/all/car/wheel@2", hub = second + "/hub.r", tub = "/all/car/tub.r";
+    const Matrix slide = test::moved(0.25, 0, 0.5);
+    const Model painted = Edit(model).set_state(tub, State::hidden).set_color(hub, {1, 0, 0}).commit();
+    const Model moved = Edit(painted).move(second, slide).commit();
+    CHECK(&moved.solids()[0] == &model.solids()[0]);  // it was not compiled anew
+    CHECK(moved.matrix_of(second) == test::moved(70.25, 80, 90.5));
+    CHECK(moved.placement_of(hub + "/ball") == test::moved(70.25, 80, 90.5));
+    const Model again = Edit(moved).move(second, slide).set_color(hub, {0, 1, 0}).commit();
+    CHECK(&again.solids()[0] == &model.solids()[0]);
+    CHECK(again.matrix_of(second) == test::moved(70.5, 80, 91));
+    CHECK(again.scene().find("wheel~2") == nullptr);
+    CHECK(painted.matrix_of(second) == test::moved(70, 80, 90));
+    const Model twice = Edit(painted).move(second, slide).move(second, slide).commit();
+    CHECK(twice.placement_of(hub) == again.placement_of(hub));
+
+    const Model less = Edit(again).remove("/all/car/wheel").commit();
+    CHECK(paths(less) == std::vector<std::string>{"/all/ends.r", hub, second + "/rim.r", tub});
+    CHECK(less.region(hub) == 1);
+    CHECK(less.children("/all/car").size() == 2);
+    CHECK(less.children("/all/car").at(0).path == second);
+    CHECK(less.matrix_of(second) == again.matrix_of(second));
+    CHECK(less.matrix_of("/all/car/wheel") == Model(less.scene()).matrix_of("/all/car/wheel"));
+    CHECK(at(less, tub).state == State::hidden);
+    const Model shown = Edit(less).set_state(tub, State::shown).set_color(tub, {0, 0, 1}).commit();
+    CHECK(at(shown, hub).color == Vec3{0, 1, 0});
+    const Model last = Edit(less).move("/all/car/wheel", slide).commit();
+    CHECK(last.matrix_of(second) == test::moved(70.75, 80, 91.5));
+    const Model back = Edit(less).add("/all/car", Operator::union_, "wheel").commit();
+    CHECK(back.regions().size() == model.regions().size());
+    for (const Model& next : {moved, again, twice, less, shown, last, back}) require_compiled_anew(next);
+
+    // A member above a rendered path moves what is rendered; without it the path leads nowhere.
+    const std::vector<std::string> roots{"ends.r", second};
+    const Model rooted(model.scene(), roots);
+    const Model driven = Edit(rooted).move("/all/car", slide).commit();
+    CHECK(&driven.solids()[0] == &rooted.solids()[0]);
+    CHECK(driven.placement_of(second) == moved.placement_of(second));
+    require_same_models(driven, Model(driven.scene(), roots));
+    CHECK(refusal([&] {
+              static_cast<void>(Edit(driven).remove("/all/car").commit());
+          }).find("'all' has no member 'car'") != std::string::npos);
+}
+
 TEST_CASE("top objects have places, with the bits of members", "[promise:edits]") {
     const Matrix turn{0, -1, 0, 7, 1, 0, 0, 60, 0, 0, 1, 5, 0, 0, 0, 1}, slide = test::moved(3, 4, 5);
     const Model model = wheels(), placed = Edit(model).set_matrix("all", turn).commit();

@@ -37,16 +37,19 @@ std::string extent_fault(const Shape& shape, const Matrix& matrix, const Box& bo
 
 }  // namespace
 
+std::string extent_fault(const Scene& scene, const FlatScene& flat, const Measured& measured, std::size_t number) {
+    const Box& box = measured.boxes[number];
+    const bool plain =
+        largest(box.low) <= most && largest(box.high) <= most && box.high.x - box.low.x >= Limits::least_length;
+    const Instance& instance = flat.instances[number];
+    return plain ? std::string() : extent_fault(shape_of(scene, flat, instance), *instance.matrix, box);
+}
+
 std::vector<ExtentFault> extent_faults(const Scene& scene, const FlatScene& flat, const Measured& measured) {
     std::vector<ExtentFault> faults;
     for (std::size_t i = 0; i < flat.instances.size(); ++i) {
-        const Instance& instance = flat.instances[i];
-        const Box& box = measured.boxes[i];
-        const bool plain =
-            largest(box.low) <= most && largest(box.high) <= most && box.high.x - box.low.x >= Limits::least_length;
-        if (plain) continue;
-        std::string fault = extent_fault(shape_of(scene, flat, instance), *instance.matrix, box);
-        if (!fault.empty()) faults.push_back({instance.object, std::move(fault)});
+        std::string fault = extent_fault(scene, flat, measured, i);
+        if (!fault.empty()) faults.push_back({flat.instances[i].object, std::move(fault)});
     }
     return faults;
 }

@@ -16,6 +16,9 @@ struct ExtentFault {
     std::string text;
 };
 
+/// The fault of an instance; empty: none.
+std::string extent_fault(const Scene& scene, const FlatScene& flat, const Measured& measured, std::size_t number);
+
 /// The solids that are larger, smaller or farther away than Limits allows.
 std::vector<ExtentFault> extent_faults(const Scene& scene, const FlatScene& flat, const Measured& measured);
 

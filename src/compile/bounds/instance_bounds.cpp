@@ -18,21 +18,38 @@ Measured::Measured(const Scene& scene, const FlatScene& flat)
     for_chunks(count, chunk_size, 0, [&](std::size_t first, std::size_t last, std::size_t number) {
         std::vector<Plane>& planes = chunks_[number];
         for (std::size_t i = first; i < last; ++i) {
-            const Instance& instance = flat.instances[i];
-            const Shape& shape = shape_of(scene, flat, instance);
             first_face_[i] = static_cast<std::uint32_t>(planes.size());
-            SolidBoxes both;
-            if (const auto* arb = std::get_if<Arb>(&shape)) {
-                const ArbFaces faces = arb_faces(*arb, *instance.matrix);
-                planes.insert(planes.end(), faces.planes.begin(), faces.planes.end());
-                both = solid_boxes(shape, *instance.matrix, {}, &faces);
-            } else {
-                both = solid_boxes(shape, *instance.matrix, cuts_of(flat, instance));
-            }
-            boxes[i] = both.tight;
-            brlcad_boxes[i] = both.brlcad;
+            const std::vector<Plane> own = set_boxes(scene, flat, i);
+            planes.insert(planes.end(), own.begin(), own.end());
         }
     });
+}
+
+/// Sets the boxes of an instance. Returns its faces, if it is an arb.
+std::vector<Plane> Measured::set_boxes(const Scene& scene, const FlatScene& flat, std::size_t number) {
+    const Instance& instance = flat.instances[number];
+    const Shape& shape = shape_of(scene, flat, instance);
+    ArbFaces faces{};
+    SolidBoxes both;
+    if (const auto* arb = std::get_if<Arb>(&shape)) {
+        faces = arb_faces(*arb, *instance.matrix);
+        both = solid_boxes(shape, *instance.matrix, {}, &faces);
+    } else {
+        both = solid_boxes(shape, *instance.matrix, cuts_of(flat, instance));
+    }
+    boxes[number] = both.tight;
+    brlcad_boxes[number] = both.brlcad;
+    return std::move(faces.planes);
+}
+
+void Measured::measure(const Scene& scene, const FlatScene& flat, std::uint32_t instance) {
+    const std::size_t had = faces(instance).size();
+    const std::vector<Plane> now = set_boxes(scene, flat, instance);
+    std::vector<Plane>& planes = chunks_[instance / chunk_size];
+    const auto first = planes.begin() + first_face_[instance];
+    planes.insert(planes.erase(first, first + static_cast<std::ptrdiff_t>(had)), now.begin(), now.end());
+    for (std::size_t i = instance + 1; i < first_face_.size() && i % chunk_size != 0; ++i)
+        first_face_[i] += static_cast<std::uint32_t>(now.size() - had);
 }
 
 std::span<const Plane> Measured::faces(std::size_t instance) const {

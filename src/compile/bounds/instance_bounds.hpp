@@ -16,6 +16,8 @@ class Measured {
 public:
     /// Measures all instances, on several threads.
     Measured(const Scene& scene, const FlatScene& flat);
+    /// Measures an instance again, which has another matrix.
+    void measure(const Scene& scene, const FlatScene& flat, std::uint32_t instance);
 
     std::vector<Box> boxes, brlcad_boxes;  ///< one an instance; see SolidBoxes
     /// The faces of an instance that is an arb. They are kept from the computation of the box, because long double is
@@ -23,6 +25,8 @@ public:
     std::span<const Plane> faces(std::size_t instance) const;
 
 private:
+    std::vector<Plane> set_boxes(const Scene& scene, const FlatScene& flat, std::size_t instance);
+
     std::vector<std::uint32_t> first_face_;  ///< of each instance, within its chunk's faces
     std::vector<std::vector<Plane>> chunks_;
 };

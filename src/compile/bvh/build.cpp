@@ -8,6 +8,7 @@
 #include <condition_variable>
 #include <deque>
 #include <mutex>
+#include <optional>
 
 #include "compile/bvh/split.hpp"
 #include "compile/linear.hpp"
@@ -22,6 +23,10 @@ constexpr std::size_t task_size = 16'384;  // boxes of a range that one task bui
 constexpr std::uint32_t none = 0xffffffff;
 constexpr std::uint32_t part_of_number = 1u << 14;
 
+void set_number(FloatBox& box, std::size_t number) {
+    box.low.v[3] = static_cast<float>(number % part_of_number);
+    box.high.v[3] = static_cast<float>(number / part_of_number);
+}
 std::uint32_t number_of(const FloatBox& box) {
     return static_cast<std::uint32_t>(box.low.v[3]) + part_of_number * static_cast<std::uint32_t>(box.high.v[3]);
 }
@@ -37,12 +42,68 @@ float above(double value) {
 
 using BoxOf = std::function<Box(std::size_t)>;
 
+/// The subtrees of an earlier hierarchy, by their boxes.
+class Earlier {
+public:
+    explicit Earlier(const EarlierHierarchy& hierarchy)
+        : hierarchy_(hierarchy),
+          places_(hierarchy.order.size()),
+          first_nodes_(hierarchy.order.size(), none),
+          is_changed_(hierarchy.order.size()) {
+        for (std::uint32_t i = 0; i < hierarchy.order.size(); ++i)
+            if (hierarchy.order[i] != none) places_[hierarchy.order[i]] = i;
+        for (const std::uint32_t box : hierarchy.changed) is_changed_[box] = 1;
+        for (std::uint32_t i = static_cast<std::uint32_t>(nodes().size()), place = size(); i-- > 0;) {
+            if (nodes()[i].leaf != 0) place = first_of(i);
+            first_nodes_[place] = i;
+        }
+    }
+
+    /// The node with just the boxes of a range, none of which has changed; none: there is no such node, or only few
+    /// boxes, whose order depends on the others.
+    std::uint32_t find(const std::vector<FloatBox>& boxes, const Range& range) const {
+        if (range.size() <= few) return none;
+        std::uint32_t low = none, high = 0;
+        for (std::size_t i = range.first; i < range.last; ++i) {
+            const std::uint32_t box = number_of(boxes[i]), place = places_[box];
+            if (is_changed_[box]) return none;
+            low = std::min(low, place);
+            high = std::max(high, place);
+        }
+        if (high - low + 1 != range.size()) return none;
+        // The nodes that begin at one box stand behind each other, the largest first.
+        for (std::uint32_t i = first_nodes_[low]; i != none && i < nodes().size(); ++i) {
+            const std::uint32_t after = nodes()[i].skip;
+            const std::uint32_t end = after < nodes().size() ? first_place(after) : size();
+            if (end == high + 1) return i;
+            if (nodes()[i].leaf != 0) break;
+        }
+        return none;
+    }
+    const std::vector<kernel::BvhNode>& nodes() const { return hierarchy_.nodes; }
+    std::uint32_t box(std::size_t place) const { return hierarchy_.order[place]; }
+    /// The place of a node's first box in the order.
+    std::uint32_t first_place(std::uint32_t node) const {
+        while (nodes()[node].leaf == 0) ++node;
+        return first_of(node);
+    }
+
+private:
+    std::uint32_t size() const { return static_cast<std::uint32_t>(hierarchy_.order.size()); }
+    std::uint32_t first_of(std::uint32_t leaf) const { return nodes()[leaf].leaf >> BVH_LEAF_SHIFT; }
+
+    const EarlierHierarchy& hierarchy_;
+    std::vector<std::uint32_t> places_;       ///< of each box, in the order
+    std::vector<std::uint32_t> first_nodes_;  ///< by place: the largest node that begins there
+    std::vector<std::uint8_t> is_changed_;
+};
+
 /// Builds the hierarchy on several threads. Tasks wait in a queue. Each task writes its nodes into its own part of the
 /// result, and the gaps between the parts are closed at the end.
 class Builder {
 public:
     Builder(std::size_t count, const BoxOf& box_of, const Vec3& center, double radius, std::uint32_t first_solid,
-            unsigned threads);
+            unsigned threads, const EarlierHierarchy* earlier);
     Hierarchy build();
 
 private:
@@ -56,6 +117,7 @@ private:
 
     kernel::BvhNode node(const Range& range) const;
     void build_whole(Task& task, std::vector<std::uint32_t>& right);
+    bool take_over(const Range& range, kernel::BvhNode* nodes, std::vector<std::uint32_t>& right);
     void work();
     void join();
 
@@ -64,6 +126,7 @@ private:
     std::vector<kernel::BvhNode> nodes_;
     std::uint32_t first_solid_;
     unsigned threads_;
+    std::optional<Earlier> earlier_;
     std::deque<Task> tasks_;
     std::vector<std::uint32_t> waiting_;
     std::size_t unfinished_ = 0;
@@ -73,8 +136,9 @@ private:
 };
 
 Builder::Builder(std::size_t count, const BoxOf& box_of, const Vec3& center, double radius, std::uint32_t first_solid,
-                 unsigned threads)
+                 unsigned threads, const EarlierHierarchy* earlier)
     : first_solid_(first_solid), threads_(thread_count(threads)) {
+    if (earlier != nullptr) earlier_.emplace(*earlier);
     resize_cleared(boxes_, count);
     const double pad = bvh_padding * radius;
     std::vector<Range> ranges((count + task_size - 1) / task_size);
@@ -120,6 +184,7 @@ void Builder::build_whole(Task& task, std::vector<std::uint32_t>& right) {
         open.pop_back();
         const auto number = static_cast<std::uint32_t>(right.size());
         if (parent != none) right[parent] = number;
+        if (earlier_ && take_over(range, nodes, right)) continue;
         right.push_back(none);
         nodes[number] = node(range);
         Open second{{}, number}, first{{}, none};
@@ -140,6 +205,25 @@ void Builder::build_whole(Task& task, std::vector<std::uint32_t>& right) {
     }
 }
 
+/// Copies the earlier subtree of a range's boxes, if there is one, and puts the boxes in its order.
+bool Builder::take_over(const Range& range, kernel::BvhNode* nodes, std::vector<std::uint32_t>& right) {
+    const std::uint32_t found = earlier_->find(boxes_, range);
+    if (found == none) return false;
+    const std::vector<kernel::BvhNode>& from = earlier_->nodes();
+    const std::uint32_t place = earlier_->first_place(found), end = from[found].skip;
+    const auto number = static_cast<std::uint32_t>(right.size());
+    for (std::uint32_t i = found; i < end; ++i) {
+        kernel::BvhNode& node = nodes[number + (i - found)] = from[i];
+        if (node.leaf != 0) {
+            const std::uint32_t first = earlier_->first_place(i) - place + static_cast<std::uint32_t>(range.first);
+            node.leaf = (first_solid_ + first) << BVH_LEAF_SHIFT | (node.leaf & BVH_LEAF_MASK);
+        }
+        right.push_back(node.leaf != 0 ? none : number + (from[i + 1].skip - found));
+    }
+    for (std::uint32_t i = 0; i < range.size(); ++i) set_number(boxes_[range.first + i], earlier_->box(place + i));
+    return true;
+}
+
 /// Takes tasks from the queue until there are none and no other thread may add more.
 void Builder::work() {
     std::vector<std::uint32_t> memory;
@@ -151,7 +235,7 @@ void Builder::work() {
         waiting_.pop_back();
         lock.unlock();
         Task left, right;
-        const bool large = task.range.size() > task_size;
+        const bool large = task.range.size() > task_size && !(earlier_ && earlier_->find(boxes_, task.range) != none);
         std::exception_ptr thrown;
         try {
             if (large) {
@@ -240,8 +324,8 @@ Hierarchy Builder::build() {
 }  // namespace
 
 Hierarchy build_bvh(std::size_t count, const BoxOf& box_of, const Vec3& center, double radius,
-                    std::uint32_t first_solid, unsigned threads) {
-    return Builder(count, box_of, center, radius, first_solid, threads).build();
+                    std::uint32_t first_solid, unsigned threads, const EarlierHierarchy* earlier) {
+    return Builder(count, box_of, center, radius, first_solid, threads, earlier).build();
 }
 
 }  // namespace csgrt

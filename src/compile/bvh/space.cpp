@@ -9,18 +9,15 @@
 
 namespace csgrt {
 
-namespace {
-
-/// The sphere around all bounded solids, from the box around their boxes. Returns whether all solids are bounded.
 bool set_sphere(const std::vector<Box>& boxes, Space& space) {
-    struct Part {
+    struct BoxPart {
         Box box = empty_box;
         bool is_bounded = true;
     };
     constexpr std::size_t many = 16'384;
-    std::vector<Part> parts((boxes.size() + many - 1) / many);
+    std::vector<BoxPart> parts((boxes.size() + many - 1) / many);
     for_chunks(boxes.size(), many, 0, [&](std::size_t first, std::size_t last, std::size_t number) {
-        Part part;
+        BoxPart part;
         for (std::size_t i = first; i < last; ++i) {
             if (is_finite(boxes[i])) {
                 part.box = united(part.box, boxes[i]);
@@ -30,14 +27,16 @@ bool set_sphere(const std::vector<Box>& boxes, Space& space) {
         }
         parts[number] = part;
     });
-    Part all;
-    for (const Part& part : parts) all = {united(all.box, part.box), all.is_bounded && part.is_bounded};
+    BoxPart all;
+    for (const BoxPart& part : parts) all = {united(all.box, part.box), all.is_bounded && part.is_bounded};
     if (!is_empty(all.box)) {
         space.center = narrow(0.5L * (wide(all.box.low) + wide(all.box.high)));
         space.radius = 0.5 * diagonal(all.box);
     }
     return all.is_bounded;
 }
+
+namespace {
 
 using Nodes = std::vector<kernel::BvhNode>;
 
@@ -100,15 +99,16 @@ Nodes joined(const Nodes& left, const Nodes& right) {
 
 }  // namespace
 
-NumberedSpace space_of(const std::vector<Box>& boxes, const std::vector<Box>& ray_boxes) {
+NumberedSpace space_of(const std::vector<Box>& boxes, const std::vector<Box>& ray_boxes,
+                       const EarlierHierarchy* earlier) {
     NumberedSpace result;
     auto& [space, order] = result;
     const auto hierarchy_of = [&, &space = space](std::size_t count, const auto& box_of, std::uint32_t first) {
         return build_bvh(count, box_of, space.center, space.radius, first);
     };
     if (set_sphere(boxes, space)) {
-        Hierarchy hierarchy = hierarchy_of(
-            boxes.size(), [&](std::size_t i) { return boxes[i]; }, 0);
+        Hierarchy hierarchy = build_bvh(
+            boxes.size(), [&](std::size_t i) { return boxes[i]; }, space.center, space.radius, 0, 0, earlier);
         space.nodes = std::move(hierarchy.nodes);
         order = std::move(hierarchy.order);
         return result;

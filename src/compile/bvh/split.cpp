@@ -10,7 +10,6 @@ namespace csgrt::bvh {
 namespace {
 
 constexpr std::size_t bins = 16;
-constexpr std::size_t few = 8;  // boxes up to which every cut is tried
 constexpr std::size_t most_in_leaf = 4;
 constexpr double cost_of_box = 1, cost_of_solid = 12;  // a test of a solid takes about twelve times as long as a test
                                                        // of a box
@@ -93,24 +92,26 @@ Cut best_cut(const std::vector<FloatBox>& boxes, const Range& range, const Bins&
     return best;
 }
 
-/// Moves the boxes of the left side to the front, and measures the two sides.
+/// Moves the boxes of the left side to the front, and measures the two sides. The boxes of a side keep their order, so
+/// more than `few` boxes make the same subtree, whatever other boxes the hierarchy has.
 std::size_t part(std::vector<FloatBox>& boxes, const Range& range, const Cut& cut, const Bins& bin_of, Range& left,
                  Range& right) {
     left.box = left.middles = right.box = right.middles = nothing;
-    std::size_t first = range.first, last = range.last;
-    for (;;) {
-        Quad at;
-        while (first < last && bin_of(at = middle(boxes[first]), cut.axis) < cut.bin) {
-            unite(left.box, boxes[first++]);
-            extend(left.middles, at);
-        }
-        while (first < last && bin_of(at = middle(boxes[last - 1]), cut.axis) >= cut.bin) {
-            unite(right.box, boxes[--last]);
-            extend(right.middles, at);
-        }
-        if (first == last) return first;
-        std::swap(boxes[first], boxes[last - 1]);
+    thread_local std::vector<FloatBox> rights;
+    rights.clear();
+    std::size_t end = range.first;
+    for (std::size_t i = range.first; i < range.last; ++i) {
+        const FloatBox box = boxes[i];
+        const Quad at = middle(box);
+        const bool goes_left = bin_of(at, cut.axis) < cut.bin;
+        Range& side = goes_left ? left : right;
+        unite(side.box, box);
+        extend(side.middles, at);
+        goes_left ? void(boxes[end++] = box) : rights.push_back(box);
     }
+    std::copy(rights.begin(), rights.end(), boxes.begin() + static_cast<std::ptrdiff_t>(end));
+    if (constexpr std::size_t most_kept = 4096; rights.capacity() > most_kept) rights = {};
+    return end;
 }
 
 /// Sorts the boxes along the best axis. `bin` of the result is the number of boxes on the left side.

@@ -9,6 +9,9 @@
 
 namespace csgrt::bvh {
 
+/// The largest number of boxes of which every cut is tried. Their order is not kept.
+inline constexpr std::size_t few = 8;
+
 /// Four floats, for which a compiler makes one instruction. The last float of `low` and of `high` is a part of the
 /// box's number, which a float holds exactly; arithmetic on it has no meaning.
 struct alignas(16) Quad {

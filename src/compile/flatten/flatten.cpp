@@ -11,6 +11,7 @@
 #include "compile/flatten/instance_table.hpp"
 #include "compile/flatten/appearance_table.hpp"
 #include "compile/flatten/region_forest.hpp"
+#include "base/erase_at.hpp"
 #include "base/prefetch.hpp"
 #include "base/parallel.hpp"
 #include "scene/faults/finding_list.hpp"
@@ -42,8 +43,8 @@ std::vector<std::string> fastgen_regions(const FlatScene& flat) {
     return names;
 }
 
-/// Numbers equal paths of different regions, so that all paths differ.
-void tell_apart(std::vector<FlatRegion>& regions) {
+/// Numbers equal paths of different regions, so that all paths differ. Returns whether there were equal paths.
+bool tell_apart(std::vector<FlatRegion>& regions) {
     std::unordered_set<std::string> taken;
     std::unordered_map<std::string, std::uint32_t> times;
     for (FlatRegion& region : regions) {
@@ -53,6 +54,7 @@ void tell_apart(std::vector<FlatRegion>& regions) {
             region.info.path = numbered(path, ++number);
         }
     }
+    return !times.empty();
 }
 
 /// Removes instances that only removed trees used.
@@ -87,8 +89,9 @@ void drop_unused(FlatScene& flat) {
 }  // namespace
 
 const Shape& shape_of(const Scene& scene, const FlatScene& flat, const Instance& instance) {
-    const auto composite = flat.composites.find(instance.object);
-    if (composite != flat.composites.end()) return composite->second.parts[instance.piece].shape;
+    if (!flat.composites.empty())
+        if (const auto composite = flat.composites.find(instance.object); composite != flat.composites.end())
+            return composite->second.parts[instance.piece].shape;
     return std::get<Solid>(scene.objects[instance.object]).shape;
 }
 
@@ -180,6 +183,7 @@ public:
             }
             for (FlatTree::Node& node : region.tree.nodes)
                 if (node.op == Operator::leaf) node.solid = numbers_[node.solid];
+            region.term = static_cast<std::uint32_t>(term);
             result_.regions.push_back(std::move(region));
         }
         has_unused_ = has_unused_ || part.flat.has_unused;
@@ -204,7 +208,7 @@ private:
 
 /// An object that the caller named.
 struct NamedObject {
-    const std::string& name;
+    std::string name;
     std::uint32_t object;
     std::unique_ptr<RegionForest> forest;  ///< null: an equal object was named before
     std::size_t end;                       ///< number after the object's last term
@@ -264,7 +268,8 @@ std::vector<NoRegion> add_trees(const Source& source, const Found& found, FlatSc
         },
         [&](TermsPart& part) { joiner.add(part); });
     if (joiner.has_unused()) drop_unused(result);
-    if (source.names.has_ambiguous_names() || found.has_equal_paths) tell_apart(result.regions);
+    if (source.names.has_ambiguous_names() || found.has_equal_paths)
+        result.has_numbered_paths = tell_apart(result.regions);
     if (const std::vector<Look>& looks = source.scene.looks; !looks.empty()) {
         const AppearanceTable table(looks);
         for_chunks(result.regions.size(), part_size, 0, [&](std::size_t first, std::size_t last, std::size_t) {
@@ -333,14 +338,136 @@ void add_warnings(const Source& source, const Found& found, const std::vector<No
 
 }  // namespace
 
+struct FlatWalk {
+    Source source;
+    Found found = {};
+    std::vector<std::uint32_t> uses = {};  ///< leaves of each instance, once they are counted
+};
+
 FlatScene flatten(const Scene& scene, const Names& names, const std::vector<std::uint64_t>& instances,
                   const std::vector<std::string>& objects, bool air, std::uint64_t max_instances) {
     FlatScene result;
-    const Source source{scene, names, instances, ReferenceLimit(scene, max_instances)};
-    const Found found = find_regions(source, objects, air, max_instances);
+    result.walk = std::make_shared<FlatWalk>(Source{scene, names, instances, ReferenceLimit(scene, max_instances)});
+    const Source& source = result.walk->source;
+    const Found& found = result.walk->found = find_regions(source, objects, air, max_instances);
     const std::vector<NoRegion> no_regions = add_trees(source, found, result);
     add_warnings(source, found, no_regions, result);
     return result;
+}
+
+namespace {
+
+/// The regions to which changed members lead, or which have them.
+std::vector<std::uint32_t> regions_with(const FlatScene& flat, const std::vector<Member>& changed) {
+    const auto& [source, found, uses] = *flat.walk;
+    std::vector<bool> has(source.scene.objects.size());
+    for (const Member& member : changed) has[member.first] = true;
+    for (bool grows = true; grows;) {
+        grows = false;
+        for (std::uint32_t object = 0; object < has.size(); ++object) {
+            if (has[object]) continue;
+            for (const std::uint32_t child : source.names.children(object))
+                if (child < Names::left_out && has[child]) has[object] = grows = true;
+        }
+    }
+    for (const NamedObject& named : found.objects)
+        if (named.forest) named.forest->place_again(changed);
+    std::vector<std::uint32_t> regions;
+    for (std::uint32_t i = 0; i < flat.regions.size(); ++i) {
+        const auto& [forest, node] = found.terms[flat.regions[i].term];
+        const auto concerns = [&, &walked = *forest](const RegionStart& start) {
+            return has[start.object] || walked.has_moved(start);
+        };
+        if (forest->any_start(node, concerns)) regions.push_back(i);
+    }
+    return regions;
+}
+
+void count_uses(const FlatScene& flat) {
+    std::vector<std::uint32_t>& uses = flat.walk->uses;
+    if (!uses.empty()) return;
+    uses.resize(flat.instances.size());
+    for (const FlatRegion& region : flat.regions)
+        for (const FlatTree::Node& node : region.tree.nodes) uses[node.solid] += node.op == Operator::leaf;
+}
+
+/// Whether one of these instances is equal to another.
+bool has_equal(const FlatScene& flat, const std::vector<std::uint32_t>& moved) {
+    const auto place_of = [](const Instance& instance) {
+        const Matrix& m = *instance.matrix;
+        return std::hash<double>{}(m[3]) ^ 3 * std::hash<double>{}(m[7]) ^ 5 * std::hash<double>{}(m[11]);
+    };
+    std::unordered_multimap<std::size_t, std::uint32_t> places;
+    for (const std::uint32_t i : moved) places.emplace(place_of(flat.instances[i]), i);
+    for (std::uint32_t i = 0; i < flat.instances.size(); ++i) {
+        const Instance& a = flat.instances[i];
+        for (auto [place, end] = places.equal_range(place_of(a)); place != end; ++place) {
+            const Instance& b = flat.instances[place->second];
+            if (place->second != i && a.object == b.object && a.piece == b.piece && *a.matrix == *b.matrix) return true;
+        }
+    }
+    return false;
+}
+
+}  // namespace
+
+std::optional<Moved> place_again(FlatScene& flat, const std::vector<Member>& changed) {
+    auto& [source, found, uses] = *flat.walk;
+    Moved moved;
+    moved.regions = regions_with(flat, changed);
+    if (constexpr std::size_t few = 64; moved.regions.size() > std::max(few, flat.regions.size() / 4)) return {};
+    FlatPart part;
+    Flattener flattener(source, part);
+    std::unordered_map<std::uint32_t, std::pair<std::uint32_t, std::uint32_t>> places;  // by instance: matrix, leaves
+    for (const std::uint32_t region : moved.regions) {
+        const auto& [forest, term] = found.terms[flat.regions[region].term];
+        const std::vector<FlatTree::Node>& nodes = flat.regions[region].tree.nodes;
+        FlatTree tree;
+        flattener.write(*forest, term, tree);
+        if (tree.nodes.size() != nodes.size()) return {};
+        for (std::size_t i = 0; i < nodes.size(); ++i) {
+            if (nodes[i].op != Operator::leaf) continue;
+            const std::uint32_t matrix = part.leaves[tree.nodes[i].solid].matrix;
+            auto& [known, leaves] = places.try_emplace(nodes[i].solid, matrix, 0).first->second;
+            if (part.matrices[known] != part.matrices[matrix]) return {};
+            ++leaves;
+        }
+    }
+    count_uses(flat);
+    for (const auto& [instance, place] : places) {
+        const auto& [matrix, leaves] = place;
+        Instance& placed = flat.instances[instance];
+        if (*placed.matrix == part.matrices[matrix]) continue;
+        if (leaves != uses[instance]) return {};
+        auto& own = flat.placed_again[instance];
+        own = std::make_unique<Matrix>(part.matrices[matrix]);
+        placed.matrix = own.get();
+        moved.instances.push_back(instance);
+    }
+    std::sort(moved.instances.begin(), moved.instances.end());
+    if (has_equal(flat, moved.instances)) return {};
+    return moved;
+}
+
+std::optional<Moved> take_out(FlatScene& flat, const std::vector<Member>& removed) {
+    auto& [source, found, uses] = *flat.walk;
+    Moved gone;
+    gone.regions = regions_with(flat, removed);
+    if (gone.regions.size() == flat.regions.size()) return {};
+    count_uses(flat);
+    for (const std::uint32_t region : gone.regions) {
+        const auto& [forest, term] = found.terms[flat.regions[region].term];
+        const auto stays = [&walked = *forest](const RegionStart& start) { return !walked.has_moved(start); };
+        if (forest->any_start(term, stays)) return {};
+        for (const FlatTree::Node& node : flat.regions[region].tree.nodes)
+            if (node.op == Operator::leaf && --uses[node.solid] == 0) gone.instances.push_back(node.solid);
+    }
+    for (const std::uint32_t region : gone.regions)  // an instance that is left might have another place in the order
+        for (const FlatTree::Node& node : flat.regions[region].tree.nodes)
+            if (node.op == Operator::leaf && uses[node.solid] > 0) return {};
+    std::sort(gone.instances.begin(), gone.instances.end());
+    erase_at(flat.regions, gone.regions);
+    return gone;
 }
 
 FlatScene flatten(const Scene& scene, const std::vector<std::string>& objects, bool air) {

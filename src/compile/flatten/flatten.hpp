@@ -3,6 +3,8 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
+#include <optional>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -22,9 +24,12 @@ struct Instance {
 
 /// A region after flattening: one Boolean tree over instances, without combinations.
 struct FlatRegion {
-    RegionInfo info;  ///< all members but the bounds
-    FlatTree tree;    ///< leaves are instances
+    RegionInfo info;         ///< all members but the bounds
+    FlatTree tree;           ///< leaves are instances
+    std::uint32_t term = 0;  ///< of the walk that found it
 };
+
+struct FlatWalk;
 
 /// A scene after flattening: regions, and instances with their matrices from the root.
 struct FlatScene {
@@ -33,6 +38,9 @@ struct FlatScene {
     std::vector<FlatRegion> regions;            ///< by rank; regions of one rank in the order of the walk
     std::unordered_map<std::uint32_t, SolidParts> composites;  ///< by object: the solids that are made of other solids
     std::vector<Warning> warnings;
+    bool has_numbered_paths = false;                                          ///< some regions' paths were equal
+    std::shared_ptr<FlatWalk> walk;                                           ///< what place_again() needs
+    std::unordered_map<std::uint32_t, std::unique_ptr<Matrix>> placed_again;  ///< by instance: matrices
 };
 
 /// The shape of an instance, and the planes that cut it.
@@ -44,6 +52,20 @@ const std::vector<Plane>& cuts_of(const FlatScene& flat, const Instance& instanc
 /// leaves such a region out.
 FlatScene flatten(const Scene& scene, const Names& names, const std::vector<std::uint64_t>& instances,
                   const std::vector<std::string>& objects, bool air, std::uint64_t max_instances = 0);
+
+/// The instances that have other matrices, and all regions that may use these instances.
+struct Moved {
+    std::vector<std::uint32_t> instances, regions;
+};
+/// Gives the instances their matrices again, when those of some members have changed in the Names. `changed` is sorted.
+/// The arguments of flatten() must still be there. Nothing: the scene has to be flattened anew, since other instances
+/// are equal now, or much has moved; the flattened scene is of no use any more.
+std::optional<Moved> place_again(FlatScene& flat, const std::vector<Member>& changed);
+
+/// Takes out the regions to which some members lead, which are operands of unions, and returns their numbers and those
+/// of their instances, both ascending; the instances keep their places. `removed` is sorted. Nothing: as above; also if
+/// other regions hang on the members.
+std::optional<Moved> take_out(FlatScene& flat, const std::vector<Member>& removed);
 
 /// Flattens a scene and ignores its findings.
 FlatScene flatten(const Scene& scene, const std::vector<std::string>& objects, bool air);

@@ -70,7 +70,7 @@ std::optional<Flattener::Level> Flattener::enter(std::uint32_t object, const Mat
 }
 
 std::optional<Flattener::Level> Flattener::follow(const Open& parent, std::uint32_t node, std::uint32_t child) {
-    return enter(child, compose(parent.level.matrix, source_.names.node(parent.object, node).matrix));
+    return enter(child, compose(parent.level.matrix, source_.names.matrix(parent.object, node)));
 }
 
 void Flattener::operate(const Open& parent, std::uint32_t node) {

@@ -1,6 +1,7 @@
 #include "compile/flatten/region_forest.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "compile/linear.hpp"
 #include "scene/vector.hpp"
@@ -31,7 +32,7 @@ RegionForest::RegionForest(const Source& source, const ObjectPath& object, bool 
 RegionStart RegionForest::start_of(const ObjectPath& path) {
     RegionStart start{path.steps.front().object, none, none, 0};
     for (std::size_t i = 1; i < path.steps.size(); ++i) {
-        above_.push_back({start.object, matrix_of(start), attributes_of(start)});
+        above_.push_back({start.object, matrix_of(start), attributes_of(start), start});
         const Names::Kind kind = source_.names.kind(start.object);
         const bool region = kind == Names::Kind::region || kind == Names::Kind::air_region;
         if (region && inside_ == none) inside_ = start.object;
@@ -45,7 +46,40 @@ RegionStart RegionForest::start_of(const ObjectPath& path) {
 Matrix RegionForest::matrix_of(const RegionStart& start) const {
     if (start.above == none) return source_.names.top_matrix(start.object);
     const Above& above = above_[start.above];
-    return compose(above.matrix, source_.names.node(above.object, start.node).matrix);
+    return compose(above.matrix, source_.names.matrix(above.object, start.node));
+}
+
+void RegionForest::place_again(const std::vector<Member>& changed) {
+    changed_users_.assign(source_.scene.objects.size(), false);
+    for (const Member& member : changed) changed_users_[member.first] = true;
+    changed_ = changed;
+    for (Above& above : above_) {
+        above.has_moved = has_moved(above.start);
+        if (above.has_moved) above.matrix = matrix_of(above.start);
+    }
+}
+
+bool RegionForest::has_moved(const RegionStart& start) const {
+    if (start.above == none) return false;
+    const Above& above = above_[start.above];
+    return above.has_moved || (changed_users_[above.object] &&
+                               std::binary_search(changed_.begin(), changed_.end(), Member(above.object, start.node)));
+}
+
+bool RegionForest::any_start(std::uint32_t node, const std::function<bool(const RegionStart&)>& is) const {
+    if (nodes_[node].op == Operator::leaf) return is(starts_[nodes_[node].left]);
+    std::vector<std::uint32_t> rest{node};
+    while (!rest.empty()) {
+        const Node next = nodes_[rest.back()];
+        rest.pop_back();
+        if (next.op == Operator::leaf) {
+            if (is(starts_[next.left])) return true;
+            continue;
+        }
+        rest.push_back(next.left);
+        if (next.op != Operator::not_) rest.push_back(next.right);
+    }
+    return false;
 }
 
 Attributes RegionForest::attributes_of(const RegionStart& start) const {
@@ -69,7 +103,7 @@ std::optional<RegionForest::Level> RegionForest::visit(RegionStart start) {
     start.path = path;
     const Names::Kind kind = source_.names.kind(inside_ == none ? object : inside_);
     if (kind == Names::Kind::combination) {
-        above_.push_back({object, matrix_of(start), attributes_of(start)});
+        above_.push_back({object, matrix_of(start), attributes_of(start), start});
         return Level{static_cast<std::uint32_t>(above_.size() - 1), path, starts_.size()};
     }
     if (kind == Names::Kind::left_out) {

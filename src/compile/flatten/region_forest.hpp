@@ -91,6 +91,12 @@ public:
     /// not stored: the threads that need them compute them, since only one thread walks.
     Matrix matrix_of(const RegionStart& start) const;
     Attributes attributes_of(const RegionStart& start) const;
+    /// Places the combinations above regions again, when the matrices of some members, which are sorted, have changed.
+    void place_again(const std::vector<Member>& changed);
+    /// Whether one of these members leads to the start.
+    bool has_moved(const RegionStart& start) const;
+    /// Whether `is` holds for a start of a term.
+    bool any_start(std::uint32_t node, const std::function<bool(const RegionStart&)>& is) const;
     /// "/top/.../name": the names of the members on the way.
     std::string path(std::uint32_t number) const;
     /// True if several terms have the same leftmost start, and so the same path. Known after for_each_term().
@@ -109,6 +115,8 @@ private:
         std::uint32_t object;
         Matrix matrix;
         Attributes attributes;
+        RegionStart start;  ///< itself
+        bool has_moved = false;
     };
     struct Level {
         std::uint32_t above, path;
@@ -148,6 +156,8 @@ private:
     std::vector<std::string> air_regions_;
     std::uint64_t air_path_bytes_ = 0;
     bool has_equal_paths_ = false;
+    std::vector<Member> changed_;
+    std::vector<bool> changed_users_;  ///< one an object: whether it has such a member
 };
 
 }  // namespace csgrt

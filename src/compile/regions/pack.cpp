@@ -25,24 +25,43 @@ static_assert(chunk_size % SharedList<RegionInfo>::chunk_size == 0);  // threads
 struct RegionChunk {
     std::vector<std::uint32_t> words;
     std::uint32_t first_word = 0;
-    Box bounds = empty_box;
 };
 
 }  // namespace
 
+SharedList<RegionInfo> take_infos(FlatScene& flat, const std::vector<Box>& brlcad_boxes) {
+    SharedList<RegionInfo> infos(flat.regions.size());
+    for_chunks(infos.size(), chunk_size, 0, [&](std::size_t first, std::size_t last, std::size_t) {
+        for (std::size_t i = first; i < last; ++i) {
+            RegionInfo& info = infos.own(i) = std::move(flat.regions[i].info);
+            info.bounds = tree_box(flat.regions[i].tree, brlcad_boxes);
+        }
+    });
+    return infos;
+}
+
+Box bounds_of(const SharedList<RegionInfo>& regions) {
+    Box all = empty_box;
+    for (const RegionInfo& region : regions)
+        if (is_finite(region.bounds) && !is_empty(region.bounds)) all = united(all, region.bounds);
+    return all;
+}
+
 PackedRegions pack_regions(const FlatScene& flat, const std::vector<FlatTree>& trees,
-                           const std::vector<std::uint32_t>& order, const std::vector<Box>& brlcad_boxes) {
+                           const std::vector<std::uint32_t>& order, const std::vector<Box>& brlcad_boxes,
+                           SharedList<RegionInfo> infos) {
     Logic logic;
     logic.paths = std::make_shared<LatePathTable>();
+    logic.region_info = std::move(infos);
+    logic.bounds = bounds_of(logic.region_info);
     const std::size_t count = flat.regions.size();
-    std::vector<std::uint32_t> number(order.size());
+    std::vector<std::uint32_t> number(flat.instances.size());
     constexpr std::size_t many = 65'536;
     for_chunks(order.size(), many, 0, [&](std::size_t first, std::size_t last, std::size_t) {
         for (std::size_t i = first; i < last; ++i) number[order[i]] = static_cast<std::uint32_t>(i);
     });
 
     std::vector<RegionWords>& regions = logic.regions.own();
-    SharedList<RegionInfo>& infos = logic.region_info = SharedList<RegionInfo>(count);
     std::vector<FlatTree>& flat_trees = logic.flat_trees.own();
     resize_cleared(regions, count);
     resize_cleared(flat_trees, count);
@@ -51,9 +70,6 @@ PackedRegions pack_regions(const FlatScene& flat, const std::vector<FlatTree>& t
         RegionChunk& chunk = chunks[c];
         for (std::size_t i = first; i < last; ++i) {
             const FlatRegion& region = flat.regions[i];
-            RegionInfo& info = infos.own(i) = region.info;
-            info.bounds = tree_box(region.tree, brlcad_boxes);
-            if (is_finite(info.bounds) && !is_empty(info.bounds)) chunk.bounds = united(chunk.bounds, info.bounds);
             const auto numbered = [&](FlatTree tree) {
                 for (FlatTree::Node& node : tree.nodes)
                     if (node.op == Operator::leaf) node.solid = number[node.solid];
@@ -66,20 +82,18 @@ PackedRegions pack_regions(const FlatScene& flat, const std::vector<FlatTree>& t
     });
 
     for (std::uint32_t i = 0; i < count; ++i) {
-        const FlatRegion& region = flat.regions[i];
-        ++logic.rank_ends[rank_of(region.info)];
-        if (region.info.state != State::shown) logic.set_state(i, region.info.state);
-        if (region.info.finish.light)
-            logic.region_lights.push_back({i, *flat.instances[region.tree.nodes.front().solid].matrix});
+        const RegionInfo& info = logic.region_info[i];
+        ++logic.rank_ends[rank_of(info)];
+        if (info.state != State::shown) logic.set_state(i, info.state);
+        if (info.finish.light)
+            logic.region_lights.push_back({i, *flat.instances[flat.regions[i].tree.nodes.front().solid].matrix});
     }
     std::partial_sum(std::begin(logic.rank_ends), std::end(logic.rank_ends), std::begin(logic.rank_ends));
 
-    logic.bounds = empty_box;
     std::uint64_t words = 0;
     for (RegionChunk& chunk : chunks) {
         chunk.first_word = static_cast<std::uint32_t>(words);
         words += chunk.words.size();
-        logic.bounds = united(logic.bounds, chunk.bounds);
         check_tree_words(words);
     }
     std::vector<std::uint32_t>& all_words = logic.trees.own();

@@ -7,6 +7,7 @@
 #include <unordered_set>
 #include <utility>
 
+#include "base/prefetch.hpp"
 #include "compile/linear.hpp"
 #include "compile/pack_chunks.hpp"
 #include "compile/solids/pack.hpp"
@@ -16,22 +17,26 @@ namespace csgrt {
 
 namespace {
 
+/// Puts the planes of large solids among the others.
 void insert_large(PackedChunk& chunk) {
-    if (chunk.large_faces.empty()) return;
     std::vector<PackedPlane> all;
     auto small = chunk.planes.begin();
     auto large = chunk.large_faces.begin();
-    for (std::uint32_t i = 0; i < chunk.parts.size(); ++i) {
-        if (chunk.parts[i].is_large) {
+    std::uint32_t first = 0;
+    for (PackedChunk::Part& part : chunk.parts) {
+        const std::uint32_t count = part.faces + part.cuts;
+        part.first_plane = std::exchange(first, first + count);
+        if (chunk.large_faces.empty()) continue;
+        if (part.is_large) {
             all.insert(all.end(), large->begin(), large->end());
             ++large;
         } else {
-            const auto end = small + chunk.parts[i].faces + chunk.parts[i].cuts;
-            all.insert(all.end(), small, end);
-            small = end;
+            all.insert(all.end(), small, small + count);
+            small += count;
         }
     }
-    chunk.planes = std::move(all);
+    if (!std::exchange(chunk.large_faces, {}).empty()) chunk.planes = std::move(all);
+    chunk.firsts.resize(chunk.planes.size());
 }
 
 /// Removes repeated faces of a polyhedron. Returns how many references are left.
@@ -104,156 +109,188 @@ void note_flat_solids(const std::vector<std::vector<FlatSolid>>& flat_solids, co
     if (count > shown) warn({}, "nothing is left of " + std::to_string(count - shown) + " more such solids");
 }
 
-/// Sorts the planes into shards.
-Shards shards_of(std::vector<PackedChunk>& chunks, const PlaneTable& empty, const Box& common, const Shapes& shapes) {
-    Shards shards(chunks.size());
-    std::size_t planes = 0;
-    for (const PackedChunk& chunk : chunks) planes += chunk.planes.size();
-    for_each_chunk(chunks, [&](std::size_t number) {
-        PackedChunk& chunk = chunks[number];
-        shards.chunk(number).reserve(chunk.planes.size());
-        auto plane = chunk.planes.begin();
-        for (std::uint32_t i = 0; i < chunk.parts.size(); ++i) {
-            const Box& box = shapes.solid_boxes[number * PackedChunk::size + i];
-            for (const auto end = plane + chunk.parts[i].faces + chunk.parts[i].cuts; plane != end; ++plane) {
-                plane->solid = static_cast<std::uint16_t>(i);
-                empty.add_to(shards.chunk(number), plane->key, is_finite(box) ? box : common, planes);
-            }
-        }
-    });
-    shards.sort();
-    return shards;
+/// The distance of a point beyond the plane, outward from the solid whose face the plane is.
+long double beyond(const PlaneTable::Key& key, const Wide& point) {
+    const long double out = glm::dot(wide(key.one.normal), point) - key.one.distance;
+    return key.flipped ? -out : out;
 }
 
-/// For each shard, the planes that are the first of their records.
-using Firsts = std::vector<std::vector<Shards::Member>>;
-
-/// Finds the equal planes. Sets `ref` to the reference in the shard's own table.
-Firsts find_shared(std::vector<PackedChunk>& chunks, const Shards& shards, const PlaneTable& empty, const Box& common,
-                   const Shapes& shapes) {
-    Firsts firsts(Shards::count);
-    shards.for_each(empty, [&](PlaneTable& table, std::span<const Shards::Member> members, std::size_t shard) {
-        const auto plane_at = [&](std::size_t i) -> PackedPlane& {
-            return chunks[members[i].chunk].planes[members[i].index];
-        };
-        const auto box_at = [&](std::size_t i) -> const Box& {
-            return shapes.solid_boxes[members[i].chunk * PackedChunk::size + plane_at(i).solid];
-        };
-        table.reserve(members.size());
-        for (std::size_t i = 0; i < members.size(); ++i) {
-            // The entries lie far apart in memory: without prefetching the thread would wait for memory most of the
-            // time.
-            constexpr std::size_t soon = 6, later = 12;
-            if (i + later < members.size()) prefetch_line(&plane_at(i + later));
-            if (i + soon < members.size()) {
-                prefetch_line(&box_at(i + soon));
-                table.prefetch(plane_at(i + soon).key);
-            }
-            PackedPlane& plane = plane_at(i);
-            const std::size_t before = table.size();
-            plane.ref = table.add_keyed(plane.key, is_finite(box_at(i)) ? box_at(i) : common);
-            plane.is_first = table.size() > before;
-            if (plane.is_first) firsts[shard].push_back(members[i]);
-        }
-    });
-    return firsts;
-}
-
-/// Writes the scene's records, in the order of the solids, and sets each `ref` to the reference in the scene's table.
-void number_planes(std::vector<PackedChunk>& chunks, const Shards& shards, const Firsts& firsts, const Box& common,
-                   Shapes& shapes, Shells& shells) {
-    // The distance of a point beyond the plane, outward from the solid whose face the plane is.
-    const auto beyond = [](const PlaneTable::Key& key, const Wide& point) {
-        const long double out = glm::dot(wide(key.one.normal), point) - key.one.distance;
-        return key.flipped ? -out : out;
+/// Prefetches the planes of the solids after number `i`: neighbours in the hierarchy may lie far apart here.
+void prefetch_planes(const std::vector<PackedChunk>& chunks, const std::vector<std::uint32_t>& order, std::size_t i,
+                     std::size_t last) {
+    constexpr std::size_t soon = 4, later = 8, most = 8;
+    const auto part_at = [&](std::size_t number) -> const PackedChunk::Part& {
+        return chunks[order[number] / PackedChunk::size].parts[order[number] % PackedChunk::size];
     };
-    std::vector<std::uint32_t> first_record(chunks.size());
-    for_each_chunk(chunks, [&](std::size_t number) {
-        for (const PackedPlane& plane : chunks[number].planes) first_record[number] += plane.is_first;
-    });
+    if (i + later < last) prefetch_whole(part_at(i + later));
+    if (i + soon >= last) return;
+    const PackedChunk::Part& part = part_at(i + soon);
+    const PackedPlane* const planes = chunks[order[i + soon] / PackedChunk::size].planes.data() + part.first_plane;
+    for (std::size_t k = 0; k < std::min<std::size_t>(part.faces + part.cuts, most); ++k) prefetch_line(planes + k);
+}
+
+/// Writes the scene's records in the order of the solids that have them first, and sets each `ref` to the reference in
+/// the scene's table.
+void number_planes(std::vector<PackedChunk>& chunks, const std::vector<std::uint32_t>& order, Shapes& shapes) {
+    const std::size_t parts = (order.size() + PackedChunk::size - 1) / PackedChunk::size;
+    const auto for_each_part = [&](const auto& call) {
+        for_chunks(order.size(), PackedChunk::size, 0, [&](std::size_t first, std::size_t last, std::size_t part) {
+            for (std::size_t i = first; i < last; ++i) {
+                prefetch_planes(chunks, order, i, last);
+                PackedChunk& chunk = chunks[order[i] / PackedChunk::size];
+                for (PackedPlane& plane : chunk.planes_of(chunk.parts[order[i] % PackedChunk::size]))
+                    if (plane.is_first) call(plane, part);
+            }
+        });
+    };
+    std::vector<std::uint32_t> first_record(parts);
+    for_each_part([&](const PackedPlane&, std::size_t part) { ++first_record[part]; });
     std::size_t records = 0;
     for (std::uint32_t& first : first_record) records += std::exchange(first, static_cast<std::uint32_t>(records));
     PlaneTable::check_count(records);
     resize_cleared(shapes.planes, records);
-    for_each_chunk(chunks, [&](std::size_t number) {
-        std::uint32_t next = first_record[number];
-        for (PackedPlane& plane : chunks[number].planes) {
-            if (!plane.is_first) continue;
-            shapes.planes[next] = PlaneTable::record_of(plane.key);
-            plane.ref = next++ << 1;
-        }
+    std::vector<kernel::PlaneRecord>& planes = shapes.planes.own();
+    for_each_part([&](PackedPlane& plane, std::size_t part) {
+        planes[first_record[part]] = PlaneTable::record_of(plane.key);
+        plane.ref = first_record[part]++ << 1;
     });
-    shards.for_each([&](std::span<const Shards::Member> members, std::size_t shard) {
-        for (const auto& [number, i] : members) {
-            PackedPlane& plane = chunks[number].planes[i];
-            if (plane.is_first) continue;
-            const Shards::Member first = firsts[shard][plane.ref >> 1];
-            if ((plane.ref & 1) == 0) {
-                const PackedPlane& other = chunks[first.chunk].planes[first.index];
-                const std::size_t solid = number * PackedChunk::size + plane.solid;
-                const Box& box = is_finite(shapes.solid_boxes[solid]) ? shapes.solid_boxes[solid] : common;
-                const Wide middle = 0.5L * (wide(box.low) + wide(box.high));
-                shells.add(first.chunk * PackedChunk::size + other.solid, solid,
-                           static_cast<double>(beyond(plane.key, middle) - beyond(other.key, middle)), box);
-            }
-            plane.ref = chunks[first.chunk].planes[first.index].ref | (plane.ref & 1);
+    for_each_chunk(chunks, [&](std::size_t number) {
+        PackedChunk& chunk = chunks[number];
+        for (std::size_t i = 0; i < chunk.planes.size(); ++i) {
+            if (chunk.planes[i].is_first) continue;
+            const auto [first, index] = chunk.firsts[i];
+            chunk.planes[i].ref = chunks[first].planes[index >> 1].ref | (index & 1);
         }
     });
 }
 
 /// Writes each solid's references after the words of the solids.
-void write_references(const std::vector<PackedChunk>& chunks, const Box& common, Shapes& shapes,
-                      std::vector<Warning>& warnings) {
-    std::vector<std::vector<kernel::PlaneRef>> of(chunks.size());
-    std::vector<std::vector<FlatSolid>> flat_solids(chunks.size());
-    for_each_chunk(chunks, [&](std::size_t number) {
+void write_references(std::vector<PackedChunk>& chunks, const std::vector<std::uint32_t>& order, const Box& common,
+                      Shapes& shapes, std::vector<Warning>& warnings) {
+    const std::size_t parts = (order.size() + PackedChunk::size - 1) / PackedChunk::size;
+    std::vector<kernel::SolidRecord>& solids = shapes.solids.own();
+    std::vector<std::vector<kernel::PlaneRef>> of(parts);
+    std::vector<std::vector<FlatSolid>> flat_solids(parts);
+    for_chunks(order.size(), PackedChunk::size, 0, [&](std::size_t begin, std::size_t end, std::size_t number) {
         std::vector<kernel::PlaneRef>& own = of[number];
-        own.reserve(chunks[number].planes.size());
-        auto plane = chunks[number].planes.begin();
-        const auto append = [&](std::uint32_t count) {
-            for (const auto end = plane + count; plane != end; ++plane) own.push_back(plane->ref);
-        };
-        for (std::size_t i = 0; i < chunks[number].parts.size(); ++i) {
-            const PackedChunk::Part& part = chunks[number].parts[i];
+        for (std::size_t i = begin; i < end; ++i) {
+            prefetch_planes(chunks, order, i, end);
+            PackedChunk& chunk = chunks[order[i] / PackedChunk::size];
+            const PackedChunk::Part& part = chunk.parts[order[i] % PackedChunk::size];
+            const std::span<const PackedPlane> planes = chunk.planes_of(part);
             const std::size_t first = own.size();
             // A wall's plane has an inner side only in a polyhedron: two walls of a concave outline that face away from
             // each other may lie in one plane. The caps always have an inner side.
-            const bool is_extrude = shapes.solids[number * PackedChunk::size + i].type == SOLID_EXTRUDE;
-            if (const auto thickness = flat_thickness({plane, plane + (is_extrude ? 2 : part.faces)}))
-                flat_solids[number].push_back({number * PackedChunk::size + i, *thickness});
-            append(part.faces);
+            if (const auto thickness = flat_thickness(planes.first(part.type == SOLID_EXTRUDE ? 2 : part.faces)))
+                flat_solids[number].push_back({i, *thickness});
+            for (const PackedPlane& plane : planes.first(part.faces)) own.push_back(plane.ref);
             if (part.is_polyhedron) own.resize(first + drop_repeated(own.data() + first, part.faces));
-            append(part.cuts);
-            kernel::SolidRecord& record = shapes.solids[number * PackedChunk::size + i];
-            record.first_plane = static_cast<std::uint32_t>(first);
-            record.plane_count = static_cast<std::uint32_t>(own.size() - first);
+            for (const PackedPlane& plane : planes.subspan(part.faces)) own.push_back(plane.ref);
+            solids[i].first_plane = static_cast<std::uint32_t>(first);
+            solids[i].plane_count = static_cast<std::uint32_t>(own.size() - first);
         }
     });
     note_flat_solids(flat_solids, common, shapes, warnings);
-    std::vector<std::uint32_t> first_ref(chunks.size());
+    std::vector<std::uint32_t> first_ref(parts);
     std::size_t refs = shapes.words.size();
-    for (std::size_t number = 0; number < chunks.size(); ++number) {
+    for (std::size_t number = 0; number < parts; ++number) {
         first_ref[number] = static_cast<std::uint32_t>(refs);
         refs += of[number].size();
     }
     check_numbers(refs);
-    shapes.words.resize(refs);
-    for_each_chunk(chunks, [&](std::size_t number) {
-        std::copy(of[number].begin(), of[number].end(), shapes.words.begin() + first_ref[number]);
-        for (std::size_t i = 0; i < chunks[number].parts.size(); ++i)
-            shapes.solids[number * PackedChunk::size + i].first_plane += first_ref[number];
+    std::vector<std::uint32_t>& words = shapes.words.own();
+    words.resize(refs);
+    for_chunks(order.size(), PackedChunk::size, 0, [&](std::size_t begin, std::size_t end, std::size_t number) {
+        std::copy(of[number].begin(), of[number].end(), words.begin() + first_ref[number]);
+        for (std::size_t i = begin; i < end; ++i) solids[i].first_plane += first_ref[number];
     });
 }
 
 }  // namespace
 
-void share_planes(std::vector<PackedChunk>& chunks, const PlaneTable& empty, const Box& common, Shapes& shapes,
-                  Shells& shells, std::vector<Warning>& warnings) {
+PlaneSharing::PlaneSharing(std::vector<PackedChunk>& chunks, const PlaneTable& empty, const std::vector<Box>& boxes,
+                           const Box& common, Shells& shells)
+    : chunks_(chunks), empty_(empty), boxes_(boxes), common_(common), shells_(shells), shards_(chunks.size()) {
     for_each_chunk(chunks, [&](std::size_t number) { insert_large(chunks[number]); });
-    const Shards shards = shards_of(chunks, empty, common, shapes);
-    const Firsts firsts = find_shared(chunks, shards, empty, common, shapes);
-    number_planes(chunks, shards, firsts, common, shapes, shells);
-    write_references(chunks, common, shapes, warnings);
+    for (const PackedChunk& chunk : chunks) count_ += chunk.planes.size();
+    for_each_chunk(chunks, [&](std::size_t number) {
+        PackedChunk& chunk = chunks[number];
+        shards_.chunk(number).reserve(chunk.planes.size());
+        for (std::uint32_t i = 0; i < chunk.parts.size(); ++i) {
+            for (PackedPlane& plane : chunk.planes_of(chunk.parts[i])) {
+                plane.solid = static_cast<std::uint16_t>(i);
+                empty.add_to(shards_.chunk(number), plane.key, box_of(number * PackedChunk::size + i), count_);
+            }
+        }
+    });
+    shards_.sort();
+    shards_.for_each(empty, [&](PlaneTable& table, std::span<const Shards::Member> members, std::size_t) {
+        table.reserve(members.size());
+        share(table, members);
+    });
+    shards_.forget_members();
+}
+
+/// Finds the first of each of some planes.
+void PlaneSharing::share(PlaneTable& table, std::span<const Shards::Member> members) {
+    const auto plane_at = [&](const Shards::Member& m) -> PackedPlane& { return chunks_[m.chunk].planes[m.index]; };
+    const auto solid_of = [&](const Shards::Member& m) { return m.chunk * PackedChunk::size + plane_at(m).solid; };
+    std::vector<Shards::Member> firsts;  // one a record of the table
+    for (std::size_t i = 0; i < members.size(); ++i) {
+        // The entries lie far apart in memory: without prefetching the thread would wait for memory most of the time.
+        constexpr std::size_t soon = 6, later = 12;
+        if (i + later < members.size()) prefetch_line(&plane_at(members[i + later]));
+        if (i + soon < members.size()) {
+            prefetch_line(&boxes_[solid_of(members[i + soon])]);
+            table.prefetch(plane_at(members[i + soon]).key);
+        }
+        const Shards::Member& member = members[i];
+        PackedPlane& plane = plane_at(member);
+        const std::size_t before = table.size(), solid = solid_of(member);
+        const kernel::PlaneRef ref = table.add_keyed(plane.key, box_of(solid));
+        plane.is_first = table.size() > before;
+        if (plane.is_first) firsts.push_back(member);
+        const Shards::Member& first = firsts[ref >> 1];
+        chunks_[member.chunk].firsts[member.index] = {first.chunk, first.index << 1 | (ref & 1)};
+        if (plane.is_first || (ref & 1) != 0) continue;
+        const Wide middle = 0.5L * (wide(box_of(solid).low) + wide(box_of(solid).high));
+        shells_.add(solid_of(first), solid,
+                    static_cast<double>(beyond(plane.key, middle) - beyond(plane_at(first).key, middle)),
+                    box_of(solid));
+    }
+}
+
+void PlaneSharing::change(std::size_t solid) {
+    const std::size_t number = solid / PackedChunk::size;
+    PackedChunk& chunk = chunks_[number];
+    const PackedChunk::Part& part = chunk.parts[solid % PackedChunk::size];
+    std::size_t index = part.first_plane;
+    for (PackedPlane& plane : chunk.planes_of(part)) {
+        Shards::Chunk at;
+        empty_.add_to(at, plane.key, box_of(solid), count_);
+        shards_.replace(number, index++, at);
+    }
+}
+
+void PlaneSharing::remove(std::size_t solid) {
+    const std::size_t number = solid / PackedChunk::size;
+    const PackedChunk::Part& part = chunks_[number].parts[solid % PackedChunk::size];
+    for (std::uint32_t i = 0; i < part.faces + part.cuts; ++i) shards_.touch(number, part.first_plane + i);
+}
+
+void PlaneSharing::share_again() {
+    std::vector<Shards::Member> members = shards_.take_changed();
+    std::erase_if(members, [&](const Shards::Member& member) {
+        PackedChunk& chunk = chunks_[member.chunk];
+        return chunk.parts[chunk.planes[member.index].solid].is_gone;
+    });
+    PlaneTable table = empty_;
+    share(table, members);
+}
+
+void PlaneSharing::write(const std::vector<std::uint32_t>& order, Shapes& shapes, std::vector<Warning>& warnings) {
+    number_planes(chunks_, order, shapes);
+    write_references(chunks_, order, common_, shapes, warnings);
 }
 
 }  // namespace csgrt

@@ -137,7 +137,7 @@ SurfaceTable::Found SurfaceTable::add(const Surface& surface, std::uint32_t numb
                      : cells_of(surface.at[i], tolerance, size_cell);
     };
     const CellRange ranges[4] = {cells(0, reach), cells(1, reach), cells(2, reach), cells(3, reach)};
-    const std::span<double> mine = reals_of(number);
+    const std::span<const double> mine = reals_of(number);
 
     std::uint32_t found = none;
     long double out = 0;
@@ -163,17 +163,16 @@ SurfaceTable::Found SurfaceTable::add(const Surface& surface, std::uint32_t numb
                     }
                 }
     if (found != none) {
-        const std::span<double> first = reals_of(entries_[found].number);
+        const std::span<const double> first = reals_of(entries_[found].number);
         // A cone with its apex as origin keeps its digits at the apex; a cone whose apex is cut off loses no digits.
-        if (has_apex_origin(surface.type, mine.data()) && !has_apex_origin(surface.type, first.data()))
-            std::copy(mine.begin(), mine.end(), first.begin());
-        return {entries_[found].number, static_cast<double>(-out)};
+        const bool gives = has_apex_origin(surface.type, mine.data()) && !has_apex_origin(surface.type, first.data());
+        return {entries_[found].number, static_cast<double>(-out), gives};
     }
     const std::uint64_t hash =
         cell_hash({surface.type, cells(0, 0).first, cells(1, 0).first, cells(2, 0).first, cells(3, 0).first});
     const auto next = static_cast<std::uint32_t>(entries_.size());
     entries_.push_back({number, cells_.exchange(hash, next)});
-    return {number, 0};
+    return {number, 0, false};
 }
 
 }  // namespace csgrt

@@ -45,14 +45,15 @@ public:
     std::array<Shards::Chunk::Dimension, 5> coarse_cells(const Surface& surface) const;
 
     /// The parameters of a solid, by its number, and its local axes in the world.
-    using RealsOf = std::function<std::span<double>(std::uint32_t)>;
+    using RealsOf = std::function<std::span<const double>(std::uint32_t)>;
     using AxesOf = std::function<WideMatrix(std::uint32_t)>;
     /// The result of a search. `solid`: the solid whose parameters solid `number` uses: an earlier solid with the same
     /// surface, or itself. `depth`: how far the surface of `number` lies inside the surface of `solid`, millimetres;
-    /// negative: outside.
+    /// negative: outside. `gives`: from now on all solids with the surface use the parameters of `number`.
     struct Found {
         std::uint32_t solid;
         double depth;
+        bool gives;
     };
     Found add(const Surface& surface, std::uint32_t number, const RealsOf& reals_of, const AxesOf& axes_of);
 

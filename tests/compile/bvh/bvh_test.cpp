@@ -219,3 +219,33 @@ TEST_CASE("boxes beyond the largest float are split, too") {
     for (const kernel::BvhNode& node : h.nodes)
         for (int axis = 0; axis < 3; ++axis) CHECK(node.low[axis] <= node.high[axis]);
 }
+
+TEST_CASE("subtrees taken from an earlier hierarchy are those that are built", "[promise:edits]") {
+    std::mt19937 random(8);
+    const auto part = [&] { return static_cast<double>(random() % 1000) / 1000; };
+    for (const std::size_t count : {3u, 40u, 3000u, 40'000u}) {
+        std::vector<Box> boxes(count);
+        const auto place = [&](Box& box) {
+            const Vec3 low{part(), std::round(8 * part()) / 8, part()};
+            box = {low, {low.x + 0.01, low.y + 0.01, low.z + 0.01 + 0.1 * part()}};
+        };
+        for (Box& box : boxes) place(box);
+        const Vec3 center{0.5, 0.5, 0.5};
+        Hierarchy before = build_bvh(boxes, center, 1, 0);
+        for (int i = 0; i < 6; ++i) {
+            std::vector<std::uint32_t> changed;
+            for (int n = 0; n <= i; ++n) {
+                changed.push_back(static_cast<std::uint32_t>(random() % count));
+                place(boxes[changed.back()]);
+            }
+            const EarlierHierarchy earlier{before.nodes, before.order, changed};
+            Hierarchy made = build_bvh(
+                count, [&](std::size_t box) { return boxes[box]; }, center, 1, 0, 0, &earlier);
+            const Hierarchy anew = build_bvh(boxes, center, 1, 0);
+            CHECK((made.order == anew.order));
+            REQUIRE(made.nodes.size() == anew.nodes.size());
+            CHECK(std::memcmp(made.nodes.data(), anew.nodes.data(), made.nodes.size() * sizeof made.nodes[0]) == 0);
+            before = std::move(made);
+        }
+    }
+}

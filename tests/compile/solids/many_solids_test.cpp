@@ -5,6 +5,7 @@
 #include <string>
 #include <unordered_map>
 
+#include "base/identical.hpp"
 #include "catch.hpp"
 #include "compile/compiled_scene.hpp"
 #include "compile/solids/pack_one.hpp"
@@ -25,16 +26,33 @@ void require_as_one_by_one(const Scene& scene, const CompiledScene& compiled) {
     SurfaceTable surfaces(compiled.center, compiled.radius);
     SharedParts shared;
     const FlatScene flat = flatten(scene, {"all"}, false);
-    std::unordered_map<std::string, const Instance*> by_name;
-    for (const Instance& instance : flat.instances) by_name[name_of(scene.objects[instance.object])] = &instance;
-    for (std::size_t i = 0; i < compiled.solids.size(); ++i) {
-        const Instance& instance = *by_name.at(compiled.solid_info[i].name);
-        test::pack_one(shape_of(scene, flat, instance), *instance.matrix, compiled.solid_boxes[i], alone, planes,
+    std::unordered_map<std::string, std::size_t> by_name;
+    for (std::size_t i = 0; i < compiled.solids.size(); ++i) by_name[compiled.solid_info[i].name] = i;
+    for (const Instance& instance : flat.instances) {
+        const std::size_t number = by_name.at(name_of(scene.objects[instance.object]));
+        test::pack_one(shape_of(scene, flat, instance), *instance.matrix, compiled.solid_boxes[number], alone, planes,
                        surfaces, shared);
     }
-    CHECK((alone.reals.get() == compiled.reals.get()));
-    CHECK((alone.words.get() == compiled.words.get()));
-    CHECK(planes.records().size() == compiled.planes.size());
+    REQUIRE(alone.reals.size() == compiled.reals.size());
+    REQUIRE(alone.words.size() == compiled.words.size());
+    const std::vector<kernel::PlaneRecord> records = planes.records();
+    REQUIRE(records.size() == compiled.planes.size());
+    // Numbers and planes lie elsewhere, as the solids are numbered.
+    for (std::size_t i = 0; i < flat.instances.size(); ++i) {
+        const kernel::SolidRecord& one = alone.solids[i];
+        const kernel::SolidRecord& other =
+            compiled.solids[by_name.at(name_of(scene.objects[flat.instances[i].object]))];
+        REQUIRE(one.plane_count == other.plane_count);
+        for (std::uint32_t k = 0; k < one.plane_count; ++k) {
+            const kernel::PlaneRef a = alone.words[one.first_plane + k], b = compiled.words[other.first_plane + k];
+            REQUIRE((a & 1) == (b & 1));
+            REQUIRE(same_bits(records[a >> 1], compiled.planes[b >> 1]));
+        }
+        const std::size_t end = i + 1 < flat.instances.size() ? alone.solids[i + 1].first_real : alone.reals.size();
+        if (end <= one.first_real) continue;  // it has the numbers of an earlier solid
+        REQUIRE(std::equal(alone.reals.begin() + one.first_real, alone.reals.begin() + static_cast<std::ptrdiff_t>(end),
+                           compiled.reals.begin() + other.first_real));
+    }
 }
 
 }  // namespace

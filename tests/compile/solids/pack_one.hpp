@@ -20,15 +20,14 @@ inline void pack_one(const Shape& shape, const Matrix& matrix, const Box& box, C
     if (const auto surface =
             surfaces.surface_of(record.type, scene.reals.data() + record.first_real, packer.axes_in_world, box)) {
         const std::size_t count = scene.reals.size() - record.first_real;
-        const std::uint32_t first =
-            surfaces
-                .add(
-                    *surface, record.first_real,
-                    [&](std::uint32_t real) { return std::span<double>(scene.reals.own()).subspan(real, count); },
-                    [&](std::uint32_t) { return packer.axes_in_world; })
-                .solid;
-        if (first != record.first_real) scene.reals.resize(record.first_real);
-        record.first_real = first;
+        const SurfaceTable::Found found = surfaces.add(
+            *surface, record.first_real,
+            [&](std::uint32_t real) { return std::span<const double>(scene.reals.own()).subspan(real, count); },
+            [&](std::uint32_t) { return packer.axes_in_world; });
+        std::vector<double>& reals = scene.reals;
+        if (found.gives) std::copy_n(reals.begin() + record.first_real, count, reals.begin() + found.solid);
+        if (found.solid != record.first_real) reals.resize(record.first_real);
+        record.first_real = found.solid;
     }
     record.first_plane = static_cast<std::uint32_t>(scene.words.size());
     std::unordered_set<kernel::PlaneRef> seen;

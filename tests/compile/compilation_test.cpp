@@ -1,0 +1,201 @@
+// Compilations of edited scenes: what a part makes again has the bits of the whole made anew.
+#include "compile/compilation.hpp"
+
+#include <cstring>
+#include <random>
+
+#include "base/identical.hpp"
+#include "catch.hpp"
+#include "compile/model.hpp"
+#include "integration/samples.hpp"
+#include "sanitized.hpp"
+#include "scene/warning_texts.hpp"
+
+using namespace csgrt;
+using namespace csgrt::test;
+
+namespace {
+
+template <class T>
+bool same_table(const SharedVector<T>& a, const SharedVector<T>& b) {
+    return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
+}
+
+bool same_materials(const Appearance& a, const Appearance& b) {
+    return a.materials_hash == b.materials_hash &&
+           std::ranges::equal(a.materials, b.materials, [](const auto& x, const auto& y) { return same_bits(x, y); });
+}
+
+void require_same(const CompiledScene& a, const CompiledScene& b) {
+    REQUIRE(same_table(a.nodes, b.nodes));
+    REQUIRE(same_bits(a.center, b.center));
+    REQUIRE(same_bits(a.radius, b.radius));
+    REQUIRE(same_table(a.trees, b.trees));
+    REQUIRE(same_table(a.starts, b.starts));
+    REQUIRE(same_table(a.regions, b.regions));
+    REQUIRE(same_table(a.solids, b.solids));
+    REQUIRE(same_table(a.reals, b.reals));
+    REQUIRE(same_table(a.planes, b.planes));
+    REQUIRE(same_table(a.words, b.words));
+    REQUIRE(same_table(a.inner_nodes, b.inner_nodes));
+    REQUIRE(same_table(a.solid_boxes, b.solid_boxes));
+    REQUIRE(same_materials(a, b));
+    REQUIRE(same_bits(a.bounds, b.bounds));
+    REQUIRE(a.starting_node == b.starting_node);
+    REQUIRE(a.solid_types == b.solid_types);
+    REQUIRE(a.solid_info.size() == b.solid_info.size());
+    for (std::size_t i = 0; i < a.solid_info.size(); ++i) {
+        REQUIRE(a.solid_info[i].name == b.solid_info[i].name);
+        REQUIRE(a.solid_info[i].piece == b.solid_info[i].piece);
+    }
+    REQUIRE(a.region_info.size() == b.region_info.size());
+    for (std::size_t i = 0; i < a.region_info.size(); ++i) {
+        REQUIRE(a.region_info[i].path == b.region_info[i].path);
+        REQUIRE(same_bits(a.region_info[i].bounds, b.region_info[i].bounds));
+        REQUIRE(std::ranges::equal(a.flat_trees[i].nodes, b.flat_trees[i].nodes, [](const auto& x, const auto& y) {
+            return x.op == y.op && x.arity == y.arity && x.solid == y.solid;
+        }));
+    }
+    REQUIRE(texts(a.warnings) == texts(b.warnings));
+    REQUIRE(a.geometry_hash == b.geometry_hash);
+    REQUIRE(a.hash == b.hash);
+}
+
+class Chain {
+public:
+    explicit Chain(unsigned seed) : random_(seed) {
+        Scene samples = scene_of_samples();
+        objects_.push_back(ball("far", {-40, -40, -40}));
+        objects_.push_back(ball("farther", {40, 40, 40}));
+        std::vector<std::string> solids;
+        for (int i = 0; i < 8; ++i) {
+            auto& sample = std::get<Solid>(samples.objects[below(samples.objects.size())]);
+            // A half-space is never local; a metaball's box takes long.
+            const unsigned rare = std::holds_alternative<Half>(sample.shape)       ? 8
+                                  : std::holds_alternative<Metaball>(sample.shape) ? 300
+                                                                                   : 1;
+            if (std::ranges::find(solids, sample.name) != solids.end() || below(rare) > 0) continue;
+            solids.push_back(sample.name);
+            objects_.push_back(sample);
+        }
+        std::vector<TreeNode> groups{leg("corners")};
+        objects_.push_back(region("corners", {leg("far"), leg("farther"), either}));
+        for (int g = 0; g < 3; ++g) {
+            std::vector<TreeNode> regions;
+            for (unsigned r = 0; r <= below(4); ++r) {
+                std::vector<TreeNode> nodes;
+                for (unsigned s = 0; s <= below(3); ++s) {
+                    nodes.push_back(leg(solids[below(solids.size())], some_matrix()));
+                    if (s > 0) nodes.push_back(below(2) ? less : either);
+                }
+                std::string name = "r" + std::to_string(g) + std::to_string(r);
+                objects_.push_back(region(name, std::move(nodes)));
+                regions.push_back(leg(name, some_matrix()));
+            }
+            regions.push_back(op(Operator::union_, static_cast<std::uint32_t>(regions.size())));
+            const std::string name = "g" + std::to_string(g);
+            objects_.push_back(group(name, std::move(regions)));
+            for (unsigned i = 0; i <= below(2); ++i) groups.push_back(leg(name, some_matrix()));
+        }
+        groups.push_back(op(Operator::union_, static_cast<std::uint32_t>(groups.size())));
+        objects_.push_back(group("all", std::move(groups)));
+    }
+
+    /// Moves members, one step after the other, and compares each with a whole compilation.
+    void go(int steps, int& local, int& whole, int& taken_out) {
+        Scene start;
+        start.objects = objects_;
+        auto scene = std::make_shared<const Scene>(std::move(start));
+        std::unique_ptr<Compilation> compilation;
+        SceneChanges now, before_now;
+        CompiledScene before;
+        const auto begin = [&] {
+            compilation = std::make_unique<Compilation>(scene, std::vector<std::string>(), CompileOptions(), 1000);
+            before = compilation->compiled();
+            now = before_now = {};
+        };
+        begin();
+        for (int i = 0; i < steps; ++i) {
+            for (unsigned n = 0; n <= below(2); ++n) below(6) == 0 ? remove_some(*scene, now) : move_some(*scene, now);
+            const Scene placed = changed_scene(*scene, now);
+            std::optional<CompiledScene> anew;
+            try {
+                anew = compile(placed);
+            } catch (const Error&) {  // nothing is left of the scene, or a matrix is none
+                now = before_now;
+                continue;
+            }
+            const std::optional<CompiledScene> made = compilation->with(now, before, before_now);
+            if (made) {
+                ++local;
+                taken_out += now.removed != before_now.removed;
+                require_same(*made, *anew);
+                if (below(4) == 0) continue;  // the next step begins where this one began
+                before = *made;
+                before_now = now;
+            } else {
+                ++whole;
+                scene = std::make_shared<const Scene>(placed);
+                begin();
+            }
+        }
+    }
+
+private:
+    std::size_t below(std::size_t count) { return random_() % static_cast<unsigned>(count); }
+    double step() { return 0.5 * static_cast<double>(below(13)) - 3; }
+
+    Matrix some_matrix() {
+        Matrix m = moved(step(), step(), step());
+        if (below(3) == 0) m = {0, -1, 0, step(), 1, 0, 0, step(), 0, 0, 1, step(), 0, 0, 0, 1};
+        if (below(6) == 0) m = {0.6, -0.8, 0, step(), 0.8, 0.6, 0, step(), 0, 0, 1.25, step(), 0, 0, 0, 1};
+        if (below(12) == 0) m[3] += 1e-11;
+        if (below(40) == 0) m[7] += 60;  // out of the model's sphere
+        return m;
+    }
+
+    void remove_some(const Scene& scene, SceneChanges& changes) {
+        const Names names(scene);
+        for (int i = 0; i < 10; ++i) {
+            const auto* combination = std::get_if<Combination>(&scene.objects[below(scene.objects.size())]);
+            if (combination == nullptr || combination->tree.nodes.size() < 3) continue;
+            const std::uint32_t object = names.find(combination->name);
+            const std::size_t leaf = below(combination->tree.nodes.size() - 1);
+            if (combination->tree.nodes[leaf].op != Operator::leaf) continue;
+            const std::string path = combination->name + "/" + names.member_name(object, leaf);
+            if (remove_beside(names, {}, path, changes)) return;
+        }
+    }
+
+    void move_some(const Scene& scene, SceneChanges& changes) {
+        MemberMatrices& matrices = changes.matrices;
+        std::vector<Member> members;
+        for (std::uint32_t i = 0; i < scene.objects.size(); ++i)
+            if (const auto* combination = std::get_if<Combination>(&scene.objects[i]))
+                for (std::uint32_t k = 0; k < combination->tree.nodes.size(); ++k)
+                    if (combination->tree.nodes[k].op == Operator::leaf) members.emplace_back(i, k);
+        matrices[members[below(members.size())]] = below(60) == 0 ? Matrix{} : some_matrix();
+        if (below(10) == 0 && !matrices.empty()) matrices.erase(matrices.begin());
+    }
+
+    std::mt19937 random_;
+    std::vector<Object> objects_;
+};
+
+void go(int chains, int steps) {
+    int local = 0, whole = 0, taken_out = 0;
+    for (int seed = 0; seed < chains; ++seed) {
+        INFO("chain " << seed);
+        Chain(static_cast<unsigned>(seed)).go(steps, local, whole, taken_out);
+    }
+    CAPTURE(local, whole, taken_out);
+    CHECK(2 * local > whole);
+    CHECK(whole > 0);
+    CHECK(20 * taken_out > local);
+}
+
+}  // namespace
+
+TEST_CASE("parts that move have the bits of a scene compiled anew", "[promise:edits]") { go(tries(40), 12); }
+
+TEST_CASE("parts that move have the bits of a scene compiled anew: 1,000 chains", "[.long]") { go(1000, 30); }
