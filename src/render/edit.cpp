@@ -19,6 +19,7 @@ struct Edit::Impl {
     ModelSource source;                 ///< with all edits except appearances
     std::shared_ptr<Scene> scene = {};  ///< replaces the source's scene, if an edit changes it
     std::vector<Look> looks = {};       ///< in addition to the source's appearances
+    mutable bool is_given = false;      ///< a Model has the scene, too
 
     Scene& changed() {
         if (!scene) {
@@ -26,7 +27,7 @@ struct Edit::Impl {
             source.changes = {};
             if (source.objects.empty()) scene->top = top_objects(*scene);  // so that no edit changes them
         }
-        if (scene.use_count() > 1) scene = std::make_shared<Scene>(*scene);  // a Model shares it
+        if (std::exchange(is_given, false)) scene = std::make_shared<Scene>(*scene);
         return *scene;
     }
     /// Calls change(names, rendered, changes), which adds to the changes beside the scene and returns whether that
@@ -234,7 +235,7 @@ Edit& Edit::erase(const std::string& path) {
 /// Whether only tables of regions change, apart from the changes beside the scene. They do not suffice if a region
 /// begins or ceases to emit light, since its number may change.
 bool Edit::Impl::changes_tables_alone() const {
-    if (scene) return false;
+    if (scene || source.objects != before->source.objects) return false;
     return std::ranges::none_of(looks, [&](const Look& look) {
         return look.finish &&
                (look.finish->light || std::ranges::any_of(before->scene.region_lights, [&](const RegionLight& light) {
@@ -276,7 +277,7 @@ Model Edit::commit() const {
     } else {
         std::shared_ptr<Scene> whole = edit.scene;
         if (!whole) whole = std::make_shared<Scene>(changed_scene(*source.scene, source.changes));
-        if (whole.use_count() > 2) whole = std::make_shared<Scene>(*whole);  // a Model shares it
+        if (edit.scene && std::exchange(edit.is_given, true)) whole = std::make_shared<Scene>(*whole);
         source.changes = {};
         source.put_appearance(*whole);
         source.scene = std::move(whole);

@@ -1,7 +1,6 @@
 // Edits: the next Model is the one that would be compiled from the edited scene, region by region, to the last bit.
 #include <csgrt/edit.hpp>
 
-#include <map>
 #include <random>
 #include <thread>
 
@@ -10,13 +9,14 @@
 #include "compile/model.hpp"
 #include "formats/json/write/writer.hpp"
 #include "integration/lists.hpp"
-#include "integration/same_answers.hpp"
 #include "integration/scenes.hpp"
+#include "render/same_models.hpp"
 #include "sanitized.hpp"
 #include "scene/vector.hpp"
 #include "thrown.hpp"
 
 using namespace csgrt;
+using test::require_compiled_anew, test::require_same_models, test::small_view;
 
 namespace {
 
@@ -49,54 +49,6 @@ const RegionInfo& at(const Model& model, const std::string& path) {
 }
 
 std::string refusal(const std::function<void()>& work) { return test::thrown_by(work).text; }
-
-View small_view(const Scene& scene) {
-    View view{.width = 40, .height = 30, .camera = scene.camera};
-    view.channels |= channel::ghosts;
-    return view;
-}
-
-/// Pictures and partitions of both are the same, regions being told by their paths.
-void require_same_models(const Model& edited, const Model& fresh) {
-    std::map<std::string, std::uint32_t> number;
-    for (std::uint32_t i = 0; i < fresh.regions().size(); ++i) number[fresh.regions()[i].path] = i;
-    REQUIRE(number.size() == fresh.regions().size());
-    REQUIRE(edited.regions().size() == fresh.regions().size());
-    std::vector<std::uint32_t> to_fresh;
-    for (const RegionInfo& region : edited.regions()) {
-        REQUIRE(number.contains(region.path));
-        to_fresh.push_back(number[region.path]);
-        const RegionInfo& other = fresh.regions()[to_fresh.back()];
-        REQUIRE(region.color == other.color);
-        REQUIRE(region.state == other.state);
-        REQUIRE(region.bounds.low == other.bounds.low);
-        REQUIRE(region.bounds.high == other.bounds.high);
-    }
-    Renderer a(edited, test::on_native_device()), b(fresh, test::on_native_device());
-    View view = small_view(edited.scene());
-    for (const bool every_partition : {true, false}) {
-        view.every_partition = every_partition;
-        Image one = a.render(view);
-        for (const char* name : {"region", "ghost"}) {
-            const auto channel = static_cast<std::size_t>(std::ranges::find(one.names, name) - one.names.begin());
-            for (std::uint32_t& id : one.channels.ids(channel)) id = id == 0 ? 0 : to_fresh[id - 1] + 1;
-        }
-        test::require_same(one, b.render(view));
-    }
-    const std::vector<Ray> rays = test::random_rays(fresh.bounds(), 60);
-    for (const bool hidden : {true, false}) {
-        Partitions one, other;
-        Fields fields = all_fields;
-        fields.hidden = hidden;
-        a.partitions(rays, one, fields);
-        b.partitions(rays, other, fields);
-        for (Array<std::int32_t>* ids : {&one.region_ids, &one.overlap_region_ids})
-            for (std::int32_t& id : *ids) id = static_cast<std::int32_t>(to_fresh[static_cast<std::size_t>(id)]);
-        for (std::size_t i = 0; i < rays.size(); ++i) REQUIRE(same_rows(one, i, other, i));
-    }
-}
-
-void require_compiled_anew(const Model& edited) { require_same_models(edited, Model(edited.scene())); }
 
 /// A random edit of any kind. Some are refused.
 void edit_at_random(Edit& edit, const Model& model, std::mt19937& random) {
@@ -505,6 +457,17 @@ TEST_CASE("solids are replaced, objects added, legs removed with their operators
     CHECK(paths(beside).back() == "/part.r");
     CHECK(paths(Edit(beside).remove("part.r").commit()) == paths(model));
     for (const Model& next : {large, whole, added}) require_compiled_anew(next);
+}
+
+TEST_CASE("instances of one object are rendered side by side, and one of them is taken away", "[promise:edits]") {
+    const Model two(wheels().scene(), {"all/wheel", "/all/wheel@2/"});
+    CHECK(two.warnings().empty());
+    CHECK(paths(two) ==
+          std::vector<std::string>{"/all/wheel/hub.r", "/all/wheel/rim.r", "/all/wheel@2/hub.r", "/all/wheel@2/rim.r"});
+    const Model one = Edit(two).remove("/all/wheel").commit();
+    CHECK(paths(one) == std::vector<std::string>{"/all/wheel@2/hub.r", "/all/wheel@2/rim.r"});
+    require_same_models(one, Model(one.scene(), {"all/wheel@2"}));
+    CHECK(Model(wheels().scene(), {"all/wheel@2", "/all/wheel@2"}).warnings().size() == 1);
 }
 
 TEST_CASE("what cannot be is refused with the place, and changes nothing", "[promise:edits]") {

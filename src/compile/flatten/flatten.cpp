@@ -12,6 +12,7 @@
 #include "compile/flatten/appearance_table.hpp"
 #include "compile/flatten/region_forest.hpp"
 #include "base/erase_at.hpp"
+#include "base/identical.hpp"
 #include "base/prefetch.hpp"
 #include "base/parallel.hpp"
 #include "scene/faults/finding_list.hpp"
@@ -235,7 +236,8 @@ Found find_regions(const Source& source, const std::vector<std::string>& objects
         const ObjectPath path = find_path(source.scene, source.names, object);
         if (path.steps.empty()) throw Error(Status::scene, path.fault);
         std::string way;
-        for (const ObjectPath::Step& step : path.steps) way += std::to_string(step.object) + "/";
+        for (const ObjectPath::Step& step : path.steps)
+            way += std::to_string(step.node) + ":" + std::to_string(step.object) + "/";
         NamedObject& named =
             found.objects.emplace_back(NamedObject{object, path.object(), nullptr, found.terms.size()});
         if (!seen.insert(std::move(way)).second) continue;
@@ -429,7 +431,7 @@ std::optional<Moved> place_again(FlatScene& flat, const std::vector<Member>& cha
             if (nodes[i].op != Operator::leaf) continue;
             const std::uint32_t matrix = part.leaves[tree.nodes[i].solid].matrix;
             auto& [known, leaves] = places.try_emplace(nodes[i].solid, matrix, 0).first->second;
-            if (part.matrices[known] != part.matrices[matrix]) return {};
+            if (!same_bits(part.matrices[known], part.matrices[matrix])) return {};
             ++leaves;
         }
     }
@@ -437,7 +439,7 @@ std::optional<Moved> place_again(FlatScene& flat, const std::vector<Member>& cha
     for (const auto& [instance, place] : places) {
         const auto& [matrix, leaves] = place;
         Instance& placed = flat.instances[instance];
-        if (*placed.matrix == part.matrices[matrix]) continue;
+        if (same_bits(*placed.matrix, part.matrices[matrix])) continue;
         if (leaves != uses[instance]) return {};
         auto& own = flat.placed_again[instance];
         own = std::make_unique<Matrix>(part.matrices[matrix]);

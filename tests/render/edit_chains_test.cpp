@@ -1,0 +1,124 @@
+// Chains of edits: after each, the Model is the one that is compiled from its scene, numbers and tables included.
+#include <csgrt/edit.hpp>
+
+#include "catch.hpp"
+#include "compile/random_parts.hpp"
+#include "render/same_models.hpp"
+#include "sanitized.hpp"
+
+using namespace csgrt;
+using namespace csgrt::test;
+
+namespace {
+
+struct Tally {
+    int commits = 0, refused = 0, in_part = 0, returns = 0;
+};
+
+class Chain : RandomParts {
+public:
+    using RandomParts::RandomParts;
+
+    void go(int steps, Tally& tally) {
+        Model model(scene());
+        std::vector<Model> earlier{model};
+        for (int i = 0; i < steps; ++i) {
+            Edit edit(model);
+            try {
+                for (unsigned n = 0; n <= below(3) / 2; ++n) edit_some(edit, model);
+                const Model next = edit.commit();
+                require_compiled_anew(next);
+                ++tally.commits;
+                tally.in_part += &next.solids()[0] == &model.solids()[0];
+                if (below(4) == 0) go_far_and_back(next, tally);
+                model = next;
+            } catch (const std::exception&) {  // the model is as before
+                ++tally.refused;
+                continue;
+            }
+            earlier.push_back(model);
+            if (below(5) == 0) model = earlier[below(earlier.size())];  // undo; it may go on elsewhere
+        }
+    }
+
+private:
+    std::string some_path(const Model& model) {
+        std::string path = model.regions()[below(model.regions().size())].path;
+        if (below(2) == 0) path = path.substr(0, path.find('/', 1 + below(path.size())));
+        if (const auto children = model.children(path); !children.empty() && below(3) == 0)
+            path = children[below(children.size())].path;
+        return path;
+    }
+
+    void edit_some(Edit& edit, const Model& model) {
+        const std::string path = some_path(model);
+        const Edit::Share share = below(2) ? Edit::Share::alone : Edit::Share::all;
+        switch (below(14)) {
+            case 0:
+                edit.set_color(path, {1, 0.5, 0});
+                break;
+            case 1:
+                edit.set_state(path, static_cast<State>(below(3)));
+                break;
+            case 2:
+                edit.replace(model.solids()[below(model.solids().size())].name, some_solid().shape,
+                             below(2) ? some_matrix() : identity);
+                break;
+            case 3:
+                edit.add(path, below(3) ? Operator::union_ : Operator::difference,
+                         model.solids()[below(model.solids().size())].name, some_matrix());
+                break;
+            case 4:
+                edit.add(path, Operator::union_, "g" + std::to_string(below(3)), some_matrix());
+                break;
+            case 5:
+            case 6:
+                edit.remove(path);
+                break;
+            case 7:
+                edit.add_top(model.children(path).at(0).object, some_matrix());
+                break;
+            case 8:
+                edit.set_matrix(path, model.matrix_of(some_path(model)), share);
+                break;
+            case 9:
+            case 10:
+                edit.set_matrix(path, some_matrix(), share);
+                break;
+            default:
+                edit.move(path, moved(0.5 * below(5) - 1, 0.5 * below(5) - 1, 0), share);
+        }
+    }
+
+    /// Drags a part out of the model's sphere, and puts it back.
+    void go_far_and_back(const Model& model, Tally& tally) {
+        const std::string path = some_path(model);
+        const Model far = Edit(model).set_matrix(path, moved(300, 0, 0)).commit();
+        require_compiled_anew(far);
+        const Model back = Edit(far).set_matrix(path, model.matrix_of(path)).commit();
+        require_compiled_anew(back);
+        ++tally.returns;
+    }
+};
+
+void go(int chains, int steps) {
+    Tally tally;
+    for (int seed = 0; seed < chains; ++seed) {
+        INFO("chain " << seed);
+        Chain(static_cast<unsigned>(seed)).go(steps, tally);
+    }
+    CAPTURE(tally.commits, tally.refused, tally.in_part, tally.returns);
+    CHECK(tally.commits > 2 * tally.refused);
+    CHECK(12 * tally.in_part > tally.commits);
+    CHECK(10 * tally.returns > tally.commits);
+}
+
+}  // namespace
+
+TEST_CASE("chains of edits end in the models that are compiled from their scenes", "[promise:edits]") {
+    go(tries(16), 10);
+}
+
+TEST_CASE("chains of edits end in the models that are compiled from their scenes: 1,000 chains", "[.long]") {
+    go(1000, 16);
+}
