@@ -128,8 +128,10 @@ Compilation::Compilation(std::shared_ptr<const Scene> of, const std::vector<std:
     order_ = std::move(order);
     instances_.resize(boxes.size());
     std::iota(instances_.begin(), instances_.end(), std::uint32_t{0});
+    Box bounds;
     auto [logic, terms] = pack_regions(flat_, clipped_.trees, order_, measured_->brlcad_boxes,
-                                       take_infos(flat_, measured_->brlcad_boxes));
+                                       take_infos(flat_, measured_->brlcad_boxes, bounds));
+    logic.bounds = bounds;
     terms_ = std::move(terms);
     space.starting_node = starting_node(space.nodes, terms_);
     Appearance appearance = appearance_of({scene.lights, scene.ambient, scene.background}, logic.region_info,

@@ -43,6 +43,8 @@ struct PackedChunk {
         std::uint32_t stands;             ///< the solid whose reals this solid uses: itself or an earlier solid
         std::uint32_t numbers;            ///< the solid whose reals are written for this solid: itself or a later solid
         std::uint32_t first_plane;        ///< within the chunk
+        std::uint32_t first_record;       ///< of the planes that it has first: in the scene's table
+        std::uint32_t first_ref, refs;    ///< within the chunk's references
         std::uint32_t faces, cuts;        ///< numbers of planes; equal faces of a polyhedron count once
         bool is_large, is_polyhedron;
         bool is_gone;  ///< it is in no list of solids any more

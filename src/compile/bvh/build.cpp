@@ -115,8 +115,14 @@ private:
         std::uint32_t nodes = 0;  ///< built by this task; their `skip` counts from the task's first node
     };
 
+    /// The memory of a thread.
+    struct Memory {
+        std::vector<std::uint32_t> right;  ///< the index of each node's right child; none: a leaf
+        std::vector<FloatBox> rights;      ///< see split()
+    };
+
     kernel::BvhNode node(const Range& range) const;
-    void build_whole(Task& task, std::vector<std::uint32_t>& right);
+    void build_whole(Task& task, Memory& memory);
     bool take_over(const Range& range, kernel::BvhNode* nodes, std::vector<std::uint32_t>& right);
     void work();
     void join();
@@ -169,14 +175,14 @@ kernel::BvhNode Builder::node(const Range& range) const {
     return result;
 }
 
-/// Builds a range in depth-first order: a node comes before its children, and the left child is the next node. `right`:
-/// memory for the index of each node's right child; none: a leaf.
-void Builder::build_whole(Task& task, std::vector<std::uint32_t>& right) {
+/// Builds a range in depth-first order: a node comes before its children, and the left child is the next node.
+void Builder::build_whole(Task& task, Memory& memory) {
     struct Open {
         Range range;
         std::uint32_t parent;  // the parent of a right child, which needs the child's index
     };
     kernel::BvhNode* const nodes = nodes_.data() + task.place;
+    std::vector<std::uint32_t>& right = memory.right;
     right.clear();
     std::vector<Open> open{{task.range, none}};
     while (!open.empty()) {
@@ -188,7 +194,7 @@ void Builder::build_whole(Task& task, std::vector<std::uint32_t>& right) {
         right.push_back(none);
         nodes[number] = node(range);
         Open second{{}, number}, first{{}, none};
-        if (split(boxes_, range, first.range, second.range)) {
+        if (split(boxes_, range, first.range, second.range, memory.rights)) {
             open.push_back(second);
             open.push_back(first);
         } else {
@@ -226,7 +232,7 @@ bool Builder::take_over(const Range& range, kernel::BvhNode* nodes, std::vector<
 
 /// Takes tasks from the queue until there are none and no other thread may add more.
 void Builder::work() {
-    std::vector<std::uint32_t> memory;
+    Memory memory;
     std::unique_lock lock(mutex_);
     for (;;) {
         changed_.wait(lock, [&] { return !waiting_.empty() || unfinished_ == 0; });
@@ -239,7 +245,7 @@ void Builder::work() {
         std::exception_ptr thrown;
         try {
             if (large) {
-                split(boxes_, task.range, left.range, right.range);
+                split(boxes_, task.range, left.range, right.range, memory.rights);
                 left.place = task.place + 1;
                 right.place = task.place + 2 * static_cast<std::uint32_t>(left.range.size());
             } else {

@@ -95,11 +95,10 @@ Cut best_cut(const std::vector<FloatBox>& boxes, const Range& range, const Bins&
 /// Moves the boxes of the left side to the front, and measures the two sides. The boxes of a side keep their order, so
 /// more than `few` boxes make the same subtree, whatever other boxes the hierarchy has.
 std::size_t part(std::vector<FloatBox>& boxes, const Range& range, const Cut& cut, const Bins& bin_of, Range& left,
-                 Range& right) {
+                 Range& right, std::vector<FloatBox>& rights) {
     left.box = left.middles = right.box = right.middles = nothing;
-    thread_local std::vector<FloatBox> rights;
-    rights.clear();
-    std::size_t end = range.first;
+    if (rights.size() < range.size()) rights.resize(range.size());
+    std::size_t end = range.first, count = 0;
     for (std::size_t i = range.first; i < range.last; ++i) {
         const FloatBox box = boxes[i];
         const Quad at = middle(box);
@@ -107,10 +106,9 @@ std::size_t part(std::vector<FloatBox>& boxes, const Range& range, const Cut& cu
         Range& side = goes_left ? left : right;
         unite(side.box, box);
         extend(side.middles, at);
-        goes_left ? void(boxes[end++] = box) : rights.push_back(box);
+        (goes_left ? boxes[end++] : rights[count++]) = box;
     }
-    std::copy(rights.begin(), rights.end(), boxes.begin() + static_cast<std::ptrdiff_t>(end));
-    if (constexpr std::size_t most_kept = 4096; rights.capacity() > most_kept) rights = {};
+    std::copy_n(rights.begin(), count, boxes.begin() + static_cast<std::ptrdiff_t>(end));
     return end;
 }
 
@@ -163,7 +161,7 @@ void measure(const std::vector<FloatBox>& boxes, Range& range) {
     }
 }
 
-bool split(std::vector<FloatBox>& boxes, const Range& range, Range& left, Range& right) {
+bool split(std::vector<FloatBox>& boxes, const Range& range, Range& left, Range& right, std::vector<FloatBox>& rights) {
     if (range.size() == 1) return false;
     const bool is_few = range.size() <= few;
     std::optional<Bins> bin_of;
@@ -174,7 +172,7 @@ bool split(std::vector<FloatBox>& boxes, const Range& range, Range& left, Range&
     const bool worth = cut.axis >= 0 && 2 * cost_of_box * area + cost_of_solid * cut.cost < cost_of_leaf;
     if (!worth && range.size() <= most_in_leaf) return false;
     if (cut.axis >= 0 && !is_few) {
-        left.last = right.first = part(boxes, range, cut, *bin_of, left, right);
+        left.last = right.first = part(boxes, range, cut, *bin_of, left, right, rights);
         left.first = range.first;
         right.last = range.last;
         return true;

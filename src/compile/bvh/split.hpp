@@ -49,7 +49,7 @@ struct Range {
 void measure(const std::vector<FloatBox>& boxes, Range& range);
 
 /// Moves the boxes of a range so that the boxes of `left` come first, and measures the two sides. Returns false if the
-/// range is a leaf.
-bool split(std::vector<FloatBox>& boxes, const Range& range, Range& left, Range& right);
+/// range is a leaf. `rights`: memory of this thread.
+bool split(std::vector<FloatBox>& boxes, const Range& range, Range& left, Range& right, std::vector<FloatBox>& rights);
 
 }  // namespace csgrt::bvh

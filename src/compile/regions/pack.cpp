@@ -27,23 +27,30 @@ struct RegionChunk {
     std::uint32_t first_word = 0;
 };
 
+void extend(Box& bounds, const RegionInfo& region) {
+    if (is_finite(region.bounds) && !is_empty(region.bounds)) bounds = united(bounds, region.bounds);
+}
+
 }  // namespace
 
-SharedList<RegionInfo> take_infos(FlatScene& flat, const std::vector<Box>& brlcad_boxes) {
+SharedList<RegionInfo> take_infos(FlatScene& flat, const std::vector<Box>& brlcad_boxes, Box& bounds) {
     SharedList<RegionInfo> infos(flat.regions.size());
-    for_chunks(infos.size(), chunk_size, 0, [&](std::size_t first, std::size_t last, std::size_t) {
+    std::vector<Box> around((infos.size() + chunk_size - 1) / chunk_size, empty_box);
+    for_chunks(infos.size(), chunk_size, 0, [&](std::size_t first, std::size_t last, std::size_t chunk) {
         for (std::size_t i = first; i < last; ++i) {
             RegionInfo& info = infos.own(i) = std::move(flat.regions[i].info);
             info.bounds = tree_box(flat.regions[i].tree, brlcad_boxes);
+            extend(around[chunk], info);
         }
     });
+    bounds = empty_box;
+    for (const Box& box : around) bounds = united(bounds, box);
     return infos;
 }
 
 Box bounds_of(const SharedList<RegionInfo>& regions) {
     Box all = empty_box;
-    for (const RegionInfo& region : regions)
-        if (is_finite(region.bounds) && !is_empty(region.bounds)) all = united(all, region.bounds);
+    for (const RegionInfo& region : regions) extend(all, region);
     return all;
 }
 
@@ -53,7 +60,6 @@ PackedRegions pack_regions(const FlatScene& flat, const std::vector<FlatTree>& t
     Logic logic;
     logic.paths = std::make_shared<LatePathTable>();
     logic.region_info = std::move(infos);
-    logic.bounds = bounds_of(logic.region_info);
     const std::size_t count = flat.regions.size();
     std::vector<std::uint32_t> number(flat.instances.size());
     constexpr std::size_t many = 65'536;

@@ -15,16 +15,15 @@ struct PackedRegions {
     std::vector<kernel::SolidRecord> solids;  ///< see list_terms
 };
 
-/// Takes the infos out of the regions, and sets their bounds. `brlcad_boxes`: one an instance.
-SharedList<RegionInfo> take_infos(FlatScene& flat, const std::vector<Box>& brlcad_boxes);
+/// Takes the infos out of the regions, and sets their bounds, and `bounds` around all. `brlcad_boxes`: one an instance.
+SharedList<RegionInfo> take_infos(FlatScene& flat, const std::vector<Box>& brlcad_boxes, Box& bounds);
+/// The box around all regions' bounds.
+Box bounds_of(const SharedList<RegionInfo>& regions);
 
-/// Packs the regions. `order`: the instances in the order of the solids' numbers; `brlcad_boxes`: one an instance;
-/// `trees`: the trees from which terms are made, see Clipped. `infos`: the result of take_infos().
+/// Packs the regions, but for Logic::bounds. `order`: the instances in the order of the solids' numbers; `trees`: the
+/// trees from which terms are made, see Clipped. `infos`: the result of take_infos().
 PackedRegions pack_regions(const FlatScene& flat, const std::vector<FlatTree>& trees,
                            const std::vector<std::uint32_t>& order, const std::vector<Box>& brlcad_boxes,
                            SharedList<RegionInfo> infos);
-
-/// The box around all regions' bounds.
-Box bounds_of(const SharedList<RegionInfo>& regions);
 
 }  // namespace csgrt

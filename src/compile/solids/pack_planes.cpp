@@ -81,7 +81,7 @@ std::optional<double> flat_thickness(std::span<const PackedPlane> faces) {
 }
 
 /// Warns of the first few flat solids, and says how many more there are.
-void note_flat_solids(const std::vector<std::vector<FlatSolid>>& flat_solids, const Box& common, const Shapes& shapes,
+void note_flat_solids(const std::vector<FlatSolid>& flat_solids, const Box& common, const Shapes& shapes,
                       std::vector<Warning>& warnings) {
     const auto warn = [&](std::string object, std::string reason) {
         Warning& warning = warnings.emplace_back();
@@ -90,21 +90,18 @@ void note_flat_solids(const std::vector<std::vector<FlatSolid>>& flat_solids, co
     };
     constexpr std::size_t shown = 5;
     std::size_t count = 0;
-    for (const std::vector<FlatSolid>& some : flat_solids) {
-        for (const auto& [solid, thickness] : some) {
-            // note_on() warns of a revolve that turns by no angle.
-            if (shapes.solids[solid].type == SOLID_REVOLVE && thickness == 0) continue;
-            if (++count > shown) continue;
-            const Box& box = is_finite(shapes.solid_boxes[solid]) ? shapes.solid_boxes[solid] : common;
-            const double of_size = PlaneTable::gap * diagonal(box),
-                         of_place = coordinate_rounding * largest_coordinate(box);
-            const char* const what =
-                of_size >= of_place ? "1e-10 of its size" : "what rounding may do to its coordinates";
-            std::string reason = "nothing is left of it: two of its faces are " + rounded_text(thickness) +
-                                 " mm apart, and faces within " + rounded_text(std::max(of_size, of_place)) + " mm, " +
-                                 what + ", are one surface";
-            warn(shapes.solid_info[solid].name, std::move(reason));
-        }
+    for (const auto& [solid, thickness] : flat_solids) {
+        // note_on() warns of a revolve that turns by no angle.
+        if (shapes.solids[solid].type == SOLID_REVOLVE && thickness == 0) continue;
+        if (++count > shown) continue;
+        const Box& box = is_finite(shapes.solid_boxes[solid]) ? shapes.solid_boxes[solid] : common;
+        const double of_size = PlaneTable::gap * diagonal(box),
+                     of_place = coordinate_rounding * largest_coordinate(box);
+        const char* const what = of_size >= of_place ? "1e-10 of its size" : "what rounding may do to its coordinates";
+        std::string reason = "nothing is left of it: two of its faces are " + rounded_text(thickness) +
+                             " mm apart, and faces within " + rounded_text(std::max(of_size, of_place)) + " mm, " +
+                             what + ", are one surface";
+        warn(shapes.solid_info[solid].name, std::move(reason));
     }
     if (count > shown) warn({}, "nothing is left of " + std::to_string(count - shown) + " more such solids");
 }
@@ -115,44 +112,48 @@ long double beyond(const PlaneTable::Key& key, const Wide& point) {
     return key.flipped ? -out : out;
 }
 
-/// Prefetches the planes of the solids after number `i`: neighbours in the hierarchy may lie far apart here.
-void prefetch_planes(const std::vector<PackedChunk>& chunks, const std::vector<std::uint32_t>& order, std::size_t i,
-                     std::size_t last) {
-    constexpr std::size_t soon = 4, later = 8, most = 8;
-    const auto part_at = [&](std::size_t number) -> const PackedChunk::Part& {
-        return chunks[order[number] / PackedChunk::size].parts[order[number] % PackedChunk::size];
-    };
-    if (i + later < last) prefetch_whole(part_at(i + later));
-    if (i + soon >= last) return;
-    const PackedChunk::Part& part = part_at(i + soon);
-    const PackedPlane* const planes = chunks[order[i + soon] / PackedChunk::size].planes.data() + part.first_plane;
-    for (std::size_t k = 0; k < std::min<std::size_t>(part.faces + part.cuts, most); ++k) prefetch_line(planes + k);
+PackedChunk::Part& part_of(std::vector<PackedChunk>& chunks, std::uint32_t solid) {
+    return chunks[solid / PackedChunk::size].parts[solid % PackedChunk::size];
+}
+
+/// Calls call(part, number) for the parts of the solids by number. Neighbours in the hierarchy may lie far apart here.
+template <class Call>
+void for_each_part(std::vector<PackedChunk>& chunks, const std::vector<std::uint32_t>& order, const Call& call) {
+    for (std::size_t i = 0; i < order.size(); ++i) {
+        constexpr std::size_t soon = 16;
+        if (i + soon < order.size()) prefetch_line(&part_of(chunks, order[i + soon]).first_plane);
+        call(part_of(chunks, order[i]), i);
+    }
 }
 
 /// Writes the scene's records in the order of the solids that have them first, and sets each `ref` to the reference in
 /// the scene's table.
 void number_planes(std::vector<PackedChunk>& chunks, const std::vector<std::uint32_t>& order, Shapes& shapes) {
-    const std::size_t parts = (order.size() + PackedChunk::size - 1) / PackedChunk::size;
-    const auto for_each_part = [&](const auto& call) {
-        for_chunks(order.size(), PackedChunk::size, 0, [&](std::size_t first, std::size_t last, std::size_t part) {
-            for (std::size_t i = first; i < last; ++i) {
-                prefetch_planes(chunks, order, i, last);
-                PackedChunk& chunk = chunks[order[i] / PackedChunk::size];
-                for (PackedPlane& plane : chunk.planes_of(chunk.parts[order[i] % PackedChunk::size]))
-                    if (plane.is_first) call(plane, part);
-            }
-        });
-    };
-    std::vector<std::uint32_t> first_record(parts);
-    for_each_part([&](const PackedPlane&, std::size_t part) { ++first_record[part]; });
+    for_each_chunk(chunks, [&](std::size_t number) {
+        PackedChunk& chunk = chunks[number];
+        for (PackedChunk::Part& part : chunk.parts) {
+            part.first_record = 0;
+            for (const PackedPlane& plane : chunk.planes_of(part)) part.first_record += plane.is_first;
+        }
+    });
     std::size_t records = 0;
-    for (std::uint32_t& first : first_record) records += std::exchange(first, static_cast<std::uint32_t>(records));
+    for_each_part(chunks, order, [&](PackedChunk::Part& part, std::size_t) {
+        records += std::exchange(part.first_record, static_cast<std::uint32_t>(records));
+    });
     PlaneTable::check_count(records);
     resize_cleared(shapes.planes, records);
     std::vector<kernel::PlaneRecord>& planes = shapes.planes.own();
-    for_each_part([&](PackedPlane& plane, std::size_t part) {
-        planes[first_record[part]] = PlaneTable::record_of(plane.key);
-        plane.ref = first_record[part]++ << 1;
+    for_each_chunk(chunks, [&](std::size_t number) {
+        PackedChunk& chunk = chunks[number];
+        for (const PackedChunk::Part& part : chunk.parts) {
+            std::uint32_t next = part.first_record;
+            if (part.is_gone) continue;
+            for (PackedPlane& plane : chunk.planes_of(part)) {
+                if (!plane.is_first) continue;
+                planes[next] = PlaneTable::record_of(plane.key);
+                plane.ref = next++ << 1;
+            }
+        }
     });
     for_each_chunk(chunks, [&](std::size_t number) {
         PackedChunk& chunk = chunks[number];
@@ -167,42 +168,51 @@ void number_planes(std::vector<PackedChunk>& chunks, const std::vector<std::uint
 /// Writes each solid's references after the words of the solids.
 void write_references(std::vector<PackedChunk>& chunks, const std::vector<std::uint32_t>& order, const Box& common,
                       Shapes& shapes, std::vector<Warning>& warnings) {
-    const std::size_t parts = (order.size() + PackedChunk::size - 1) / PackedChunk::size;
-    std::vector<kernel::SolidRecord>& solids = shapes.solids.own();
-    std::vector<std::vector<kernel::PlaneRef>> of(parts);
-    std::vector<std::vector<FlatSolid>> flat_solids(parts);
-    for_chunks(order.size(), PackedChunk::size, 0, [&](std::size_t begin, std::size_t end, std::size_t number) {
+    std::vector<std::vector<kernel::PlaneRef>> of(chunks.size());
+    std::vector<std::unordered_map<std::size_t, double>> thickness(chunks.size());  // by part: of flat solids
+    for_each_chunk(chunks, [&](std::size_t number) {
+        PackedChunk& chunk = chunks[number];
         std::vector<kernel::PlaneRef>& own = of[number];
-        for (std::size_t i = begin; i < end; ++i) {
-            prefetch_planes(chunks, order, i, end);
-            PackedChunk& chunk = chunks[order[i] / PackedChunk::size];
-            const PackedChunk::Part& part = chunk.parts[order[i] % PackedChunk::size];
+        own.reserve(chunk.planes.size());
+        for (std::size_t i = 0; i < chunk.parts.size(); ++i) {
+            PackedChunk::Part& part = chunk.parts[i];
             const std::span<const PackedPlane> planes = chunk.planes_of(part);
-            const std::size_t first = own.size();
+            part.first_ref = static_cast<std::uint32_t>(own.size());
             // A wall's plane has an inner side only in a polyhedron: two walls of a concave outline that face away from
             // each other may lie in one plane. The caps always have an inner side.
-            if (const auto thickness = flat_thickness(planes.first(part.type == SOLID_EXTRUDE ? 2 : part.faces)))
-                flat_solids[number].push_back({i, *thickness});
+            if (const auto found = flat_thickness(planes.first(part.type == SOLID_EXTRUDE ? 2 : part.faces)))
+                thickness[number][i] = *found;
             for (const PackedPlane& plane : planes.first(part.faces)) own.push_back(plane.ref);
-            if (part.is_polyhedron) own.resize(first + drop_repeated(own.data() + first, part.faces));
+            if (part.is_polyhedron) own.resize(part.first_ref + drop_repeated(own.data() + part.first_ref, part.faces));
             for (const PackedPlane& plane : planes.subspan(part.faces)) own.push_back(plane.ref);
-            solids[i].first_plane = static_cast<std::uint32_t>(first);
-            solids[i].plane_count = static_cast<std::uint32_t>(own.size() - first);
+            part.refs = static_cast<std::uint32_t>(own.size()) - part.first_ref;
         }
     });
-    note_flat_solids(flat_solids, common, shapes, warnings);
-    std::vector<std::uint32_t> first_ref(parts);
+    std::vector<kernel::SolidRecord>& solids = shapes.solids.own();
+    std::vector<FlatSolid> flat_solids;
     std::size_t refs = shapes.words.size();
-    for (std::size_t number = 0; number < parts; ++number) {
-        first_ref[number] = static_cast<std::uint32_t>(refs);
-        refs += of[number].size();
-    }
+    for_each_part(chunks, order, [&](const PackedChunk::Part& part, std::size_t i) {
+        solids[i].first_plane = static_cast<std::uint32_t>(refs);
+        solids[i].plane_count = part.refs;
+        refs += part.refs;
+        const auto& flat = thickness[order[i] / PackedChunk::size];
+        if (flat.empty()) return;
+        if (const auto found = flat.find(order[i] % PackedChunk::size); found != flat.end())
+            flat_solids.push_back({i, found->second});
+    });
     check_numbers(refs);
+    note_flat_solids(flat_solids, common, shapes, warnings);
     std::vector<std::uint32_t>& words = shapes.words.own();
     words.resize(refs);
-    for_chunks(order.size(), PackedChunk::size, 0, [&](std::size_t begin, std::size_t end, std::size_t number) {
-        std::copy(of[number].begin(), of[number].end(), words.begin() + first_ref[number]);
-        for (std::size_t i = begin; i < end; ++i) solids[i].first_plane += first_ref[number];
+    for_chunks(order.size(), PackedChunk::size, 0, [&](std::size_t begin, std::size_t end, std::size_t) {
+        const auto first_at = [&](std::size_t i) {
+            return of[order[i] / PackedChunk::size].begin() + part_of(chunks, order[i]).first_ref;
+        };
+        for (std::size_t i = begin; i < end; ++i) {
+            constexpr std::size_t soon = 8;
+            if (i + soon < end && solids[i + soon].plane_count > 0) prefetch_line(&*first_at(i + soon));
+            std::copy_n(first_at(i), solids[i].plane_count, words.begin() + solids[i].first_plane);
+        }
     });
 }
 
