@@ -147,7 +147,7 @@ Compilation::Compilation(std::shared_ptr<const Scene> of, const std::vector<std:
 /// Packs the solids, as they are numbered now.
 void Compilation::pack() {
     std::vector<Warning> warnings;
-    static_cast<Shapes&>(compiled_) = packer_->lay_out(order_, terms_, compiled_.solid_info, is_kept_, warnings);
+    static_cast<Shapes&>(compiled_) = packer_->lay_out(order_, terms_, is_kept_, warnings);
     compiled_.warnings = warnings_;
     compiled_.warnings.insert(compiled_.warnings.end(), warnings.begin(), warnings.end());
     join_equal(compiled_.warnings);
@@ -268,7 +268,6 @@ bool Compilation::number(const std::vector<std::uint32_t>& moved) {
         auto [logic, terms] = pack_regions(flat_, {}, order_, measured_->brlcad_boxes, compiled_.region_info);
         static_cast<Logic&>(compiled_) = std::move(logic);
         terms_ = std::move(terms);
-        compiled_.solid_info = {};
     }
     static_cast<Space&>(compiled_) = std::move(space);
     compiled_.starting_node = starting_node(compiled_.nodes, terms_);

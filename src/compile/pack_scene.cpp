@@ -77,11 +77,11 @@ ScenePacker::ScenePacker(const Scene& scene, const FlatScene& flat, const Measur
 }
 
 Shapes ScenePacker::lay_out(const std::vector<std::uint32_t>& order, const std::vector<kernel::SolidRecord>& terms,
-                            SharedList<SolidInfo> infos, bool again, std::vector<Warning>& warnings) {
+                            bool again, std::vector<Warning>& warnings) {
     Shapes shapes = again ? large_ : std::move(large_);
-    shapes.solid_info = std::move(infos);
-    const bool has_infos = !shapes.solid_info.empty();
-    if (!has_infos) shapes.solid_info = SharedList<SolidInfo>(order.size());
+    const bool has_infos = infos_.size() == order.size();
+    const auto has_info = [&](std::size_t i) { return has_infos && infos_order_[i] == order[i]; };
+    shapes.solid_info = has_infos ? infos_ : SharedList<SolidInfo>(order.size());
     resize_cleared(shapes.solids, order.size());
     resize_cleared(shapes.solid_boxes, order.size());
     std::vector<kernel::SolidRecord>& solids = shapes.solids.own();
@@ -92,12 +92,13 @@ Shapes ScenePacker::lay_out(const std::vector<std::uint32_t>& order, const std::
         for (std::size_t i = first; i < last; ++i) {
             constexpr std::size_t soon = 4, later = 8;
             if (i + later < last) {
-                if (!has_infos) prefetch_line(&flat_.instances[order[i + later]]);
+                if (!has_info(i + later)) prefetch_line(&flat_.instances[order[i + later]]);
                 prefetch_whole(measured_.boxes[order[i + later]]);
                 prefetch_whole(part_of(order[i + later]));
             }
-            if (!has_infos) {
-                if (i + soon < last) prefetch_whole(scene_.objects[flat_.instances[order[i + soon]].object]);
+            if (i + soon < last && !has_info(i + soon))
+                prefetch_whole(scene_.objects[flat_.instances[order[i + soon]].object]);
+            if (!has_info(i)) {
                 const Instance& instance = flat_.instances[order[i]];
                 const Solid& solid = std::get<Solid>(scene_.objects[instance.object]);
                 shapes.solid_info.own(i) = {solid.name, type_name(solid.shape), instance.piece};
@@ -111,6 +112,10 @@ Shapes ScenePacker::lay_out(const std::vector<std::uint32_t>& order, const std::
         }
         types |= own_types;
     });
+    if (again) {
+        infos_ = shapes.solid_info;
+        infos_order_ = order;
+    }
     shapes.solid_types = types;
     lay_out_reals(order, shapes);
     sharing_->write(order, shapes, warnings);

@@ -31,9 +31,9 @@ public:
     bool repack(std::span<const std::uint32_t> instances);
 
     /// Lays out the tables. `order`: all instances that are left, as solids are numbered; `terms`: their records, as
-    /// list_terms gives them. `infos`: those of the solids, if they are made already. `again`: not for the last time.
-    Shapes lay_out(const std::vector<std::uint32_t>& order, const std::vector<kernel::SolidRecord>& terms,
-                   SharedList<SolidInfo> infos, bool again, std::vector<Warning>& warnings);
+    /// list_terms gives them. `again`: not for the last time.
+    Shapes lay_out(const std::vector<std::uint32_t>& order, const std::vector<kernel::SolidRecord>& terms, bool again,
+                   std::vector<Warning>& warnings);
 
 private:
     /// A solid that was packed by itself.
@@ -78,6 +78,8 @@ private:
     Shells shells_;
     std::vector<PackedChunk> chunks_;
     Shards surface_shards_;
+    SharedList<SolidInfo> infos_;             ///< of the last layout
+    std::vector<std::uint32_t> infos_order_;  ///< its order
     std::optional<PlaneSharing> sharing_;
 };
 
