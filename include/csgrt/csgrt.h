@@ -398,6 +398,9 @@ typedef struct csgrt_solid_info {
 } csgrt_solid_info;
 /// Fills `info` with the solid that has the id `index`.
 CSGRT_API csgrt_status csgrt_model_solid(const csgrt_model* model, size_t index, csgrt_solid_info* info);
+/// `json`: the solid's type and parameters in the world as an object of JSON (csgrt::Model::solid(),
+/// csgrt::json_text()), valid until the thread's next call of this function; NULL: it has none.
+CSGRT_API csgrt_status csgrt_model_solid_json(const csgrt_model* model, size_t index, const char** json);
 CSGRT_API csgrt_status csgrt_model_warning(const csgrt_model* model, size_t index, csgrt_diagnostic* warning);
 
 /// csgrt::ChildInfo

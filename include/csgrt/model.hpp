@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <iterator>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -143,6 +144,10 @@ public:
     std::int32_t region(const std::string& path) const;
     /// The solids. Partitions::in_solids are indices into this list.
     const SharedList<SolidInfo>& solids() const;
+    /// A solid's type and parameters in the world: those of its object after all matrices above it. None if the type
+    /// has lists of points, triangles, curves or cells, or if the matrices give the solid a form that its type does not
+    /// have, as a torus that is scaled along one axis. Throws Error (usage) if there is no such solid.
+    std::optional<Shape> solid(std::size_t index) const;
     /// Faults that the scene's reader tolerated, objects that were left out, and other notes, each once per object and
     /// reason. The attribute csgrt:warnings of pictures has the first warnings.
     const std::vector<Warning>& warnings() const;

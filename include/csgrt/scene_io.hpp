@@ -39,6 +39,10 @@ CSGRT_API Scene parse_scene(std::string bytes, const std::string& name, const Lo
 /// complete. "-" is standard output. Throws Error: file, or scene if an object cannot be expressed. Any thread.
 CSGRT_API void save_scene(const Scene& scene, const std::string& path);
 
+/// A solid as an object of JSON, as scenes have it: {"type": "tor", "center": [0, 0, 0], ...}, in millimetres. Throws
+/// Error (scene) for a solid with numbers that are not finite. Any thread.
+CSGRT_API std::string json_text(const Shape& shape);
+
 /// Reads the view from a script that MGED's `saveview` wrote, as rt reads it: viewsize, orientation (or viewrot, ae,
 /// lookat_pt) and eye_pt, and the perspective of rt's option -p. Of several frames, the first one counts. Throws Error
 /// (file, scene). Any thread.

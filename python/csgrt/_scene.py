@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import warnings
 from collections.abc import Iterable, Mapping
@@ -195,6 +196,14 @@ class Scene(_core.Scene):
     def solids(self) -> list[Solid]:
         """The solids, by the ids that solid_ids, in_solids and out_solids have."""
         return [Solid(*row) for row in self._solid_rows()]
+
+    def solid_shape(self, solid: int) -> dict[str, Any] | None:
+        """The type and the parameters of a solid in the world, as the JSON format has them: {"type": "torus", ...}, mm.
+
+        solid: an index into solids. None if the type has lists of points, triangles, curves or cells, or if matrices
+        give the solid a form that its type does not have. Raises an IndexError if there is no such solid."""
+        text = self._solid_text(index(solid))
+        return None if text is None else json.loads(text)
 
     @property
     def warnings(self) -> list[Warning]:

@@ -401,6 +401,15 @@ void bind_scene(nb::module_& module) {
         .def("_region_rows", &region_rows)
         .def("_solid_rows", &solid_rows)
         .def("_child_rows", &child_rows)
+        .def("_solid_text",
+             [](const LiveScene& s, long long solid) -> std::optional<std::string> {
+                 const Model model = s.model();
+                 if (solid < 0 || static_cast<std::size_t>(solid) >= model.solids().size())
+                     throw nb::index_error(("there is no solid " + std::to_string(solid)).c_str());
+                 const std::optional<Shape> shape = model.solid(static_cast<std::size_t>(solid));
+                 if (!shape) return {};
+                 return json_text(*shape);
+             })
         .def("_matrix_of",
              [](const LiveScene& scene, const std::string& path) { return array_of(scene.model().matrix_of(path)); })
         .def("_placement_of",

@@ -89,6 +89,15 @@ csgrt_status csgrt_model_solid(const csgrt_model* model, size_t index, csgrt_sol
     return call([&] { fill(info, shown<csgrt_solid_info>(item(CSGRT_NEED(model).model.solids(), index)), "info"); });
 }
 
+csgrt_status csgrt_model_solid_json(const csgrt_model* model, size_t index, const char** json) {
+    return call([&] {
+        static thread_local std::string text;
+        const std::optional<Shape> shape = CSGRT_NEED(model).model.solid(index);
+        if (shape) text = json_text(*shape);
+        CSGRT_NEED(json) = shape ? text.c_str() : nullptr;
+    });
+}
+
 csgrt_status csgrt_model_warning(const csgrt_model* model, size_t index, csgrt_diagnostic* warning) {
     return call([&] { fill(warning, diagnostic_of(item(CSGRT_NEED(model).model.warnings(), index)), "warning"); });
 }

@@ -86,10 +86,11 @@ struct Shapes {
     SharedVector<std::uint32_t> words;  ///< of solids; then PlaneRefs
     SharedVector<kernel::BvhNode> inner_nodes;
     // The members below stay on the host.
-    SharedList<SolidInfo> solid_info;  ///< one a solid
-    SharedVector<Box> solid_boxes;     ///< one a solid; infinite for the unbounded
-    std::uint32_t solid_types = 0;     ///< bit SOLID_x: the scene has such solids
-    double tolerance = 0;              ///< see Scene
+    SharedList<SolidInfo> solid_info;   ///< one a solid
+    SharedList<Matrix> solid_matrices;  ///< one a solid: from its object's coordinates to the world's
+    SharedVector<Box> solid_boxes;      ///< one a solid; infinite for the unbounded
+    std::uint32_t solid_types = 0;      ///< bit SOLID_x: the scene has such solids
+    double tolerance = 0;               ///< see Scene
 };
 
 /// Appearance: the data for shading.

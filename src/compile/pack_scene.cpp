@@ -81,7 +81,10 @@ Shapes ScenePacker::lay_out(const std::vector<std::uint32_t>& order, const std::
     Shapes shapes = again ? large_ : std::move(large_);
     const bool has_infos = infos_.size() == order.size();
     const auto has_info = [&](std::size_t i) { return has_infos && infos_order_[i] == order[i]; };
+    const auto has_matrix = [&](std::size_t i) { return has_info(i) && !std::ranges::binary_search(moved_, order[i]); };
+    std::ranges::sort(moved_);
     shapes.solid_info = has_infos ? infos_ : SharedList<SolidInfo>(order.size());
+    shapes.solid_matrices = has_infos ? matrices_ : SharedList<Matrix>(order.size());
     resize_cleared(shapes.solids, order.size());
     resize_cleared(shapes.solid_boxes, order.size());
     std::vector<kernel::SolidRecord>& solids = shapes.solids.own();
@@ -103,6 +106,7 @@ Shapes ScenePacker::lay_out(const std::vector<std::uint32_t>& order, const std::
                 const Solid& solid = std::get<Solid>(scene_.objects[instance.object]);
                 shapes.solid_info.own(i) = {solid.name, type_name(solid.shape), instance.piece};
             }
+            if (!has_matrix(i)) shapes.solid_matrices.own(i) = *flat_.instances[order[i]].matrix;
             const PackedChunk::Part& part = part_of(order[i]);
             boxes[i] = measured_.boxes[order[i]];
             solids[i] = terms[i];
@@ -114,6 +118,8 @@ Shapes ScenePacker::lay_out(const std::vector<std::uint32_t>& order, const std::
     });
     if (again) {
         infos_ = shapes.solid_info;
+        matrices_ = shapes.solid_matrices;
+        moved_.clear();
         infos_order_ = order;
     }
     shapes.solid_types = types;
@@ -152,6 +158,7 @@ bool ScenePacker::repack(std::span<const std::uint32_t> instances) {
         std::vector<PackedPlane> planes;
         std::vector<Warning> warnings;
         if (part_of(instance).is_large) return false;
+        moved_.push_back(instance);
         const auto [made, surface] = pack_alone(instance, reals, planes, warnings);
         PackedChunk& chunk = chunk_of(instance);
         PackedChunk::Part& part = part_of(instance);

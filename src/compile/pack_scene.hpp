@@ -79,6 +79,8 @@ private:
     std::vector<PackedChunk> chunks_;
     Shards surface_shards_;
     SharedList<SolidInfo> infos_;             ///< of the last layout
+    SharedList<Matrix> matrices_;             ///< of the last layout
+    std::vector<std::uint32_t> moved_;        ///< the instances that were packed again since
     std::vector<std::uint32_t> infos_order_;  ///< its order
     std::optional<PlaneSharing> sharing_;
 };

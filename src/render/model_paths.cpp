@@ -3,9 +3,11 @@
 
 #include <utility>
 
+#include "compile/flatten/solid_parts.hpp"
 #include "compile/regions/path_table.hpp"
 #include "render/model_impl.hpp"
 #include "scene/object_path.hpp"
+#include "scene/solids/placed.hpp"
 
 namespace csgrt {
 
@@ -51,6 +53,19 @@ std::int32_t Model::region(const std::string& path) const {
     const std::string whole = normal_path(path);
     const std::vector<std::uint32_t> found = LatePathTable::find(impl_->scene, whole);
     return found.empty() || regions()[found.front()].path != whole ? -1 : static_cast<std::int32_t>(found.front());
+}
+
+std::optional<Shape> Model::solid(std::size_t index) const {
+    const FloatingPoint own;
+    const CompiledScene& scene = impl_->scene;
+    if (index >= scene.solid_info.size())
+        throw Error(Status::usage, "there is no solid " + std::to_string(index) + " among the model's " +
+                                       std::to_string(scene.solid_info.size()));
+    const Names& names = impl_->names();
+    const SolidInfo& info = scene.solid_info[index];
+    const Shape& shape = std::get<Solid>(names.scene().objects[names.find(info.name)]).shape;
+    const bool is_made_of_parts = std::holds_alternative<Pipe>(shape) || std::holds_alternative<Cline>(shape);
+    return placed(is_made_of_parts ? parts_of(shape).parts[info.piece].shape : shape, scene.solid_matrices[index]);
 }
 
 Matrix Model::matrix_of(const std::string& path) const {

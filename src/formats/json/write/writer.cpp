@@ -5,6 +5,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include <csgrt/scene_io.hpp>
+
 #include "formats/brlcad/values.hpp"
 #include "formats/json/reader.hpp"
 #include "formats/json/scene_forms.hpp"
@@ -170,6 +172,15 @@ std::string json_scene_text(const Scene& scene) {
         if (writer.exact()) return text;
     }
     return SceneWriter(scene, "mm", 1).text();
+}
+
+std::string json_text(const Shape& shape) {
+    JsonUnit unit(1);
+    const ordered_json value = json_of(shape, unit);
+    if (!unit.finite()) throw Error(Status::scene, "the solid has a number that is not finite, which JSON cannot hold");
+    std::string text;
+    append_json(text, value, 0, 0);
+    return text;
 }
 
 }  // namespace csgrt
