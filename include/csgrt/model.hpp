@@ -142,6 +142,8 @@ public:
     const SharedList<RegionInfo>& regions() const;
     /// The index of the region that has a path; -1: none has.
     std::int32_t region(const std::string& path) const;
+    /// The indices of the region at a path and of all regions below it. "/": of all. None if the path leads to none.
+    std::vector<std::uint32_t> regions(const std::string& path) const;
     /// The solids. Partitions::in_solids are indices into this list.
     const SharedList<SolidInfo>& solids() const;
     /// A solid's type and parameters in the world: those of its object after all matrices above it. None if the type

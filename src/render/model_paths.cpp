@@ -50,9 +50,14 @@ const Names& Model::Impl::names() const {
 }
 
 std::int32_t Model::region(const std::string& path) const {
-    const std::string whole = normal_path(path);
-    const std::vector<std::uint32_t> found = LatePathTable::find(impl_->scene, whole);
-    return found.empty() || regions()[found.front()].path != whole ? -1 : static_cast<std::int32_t>(found.front());
+    const std::vector<std::uint32_t> found = regions(path);
+    return found.empty() || regions()[found.front()].path != normal_path(path)
+               ? -1
+               : static_cast<std::int32_t>(found.front());
+}
+
+std::vector<std::uint32_t> Model::regions(const std::string& path) const {
+    return LatePathTable::find(impl_->scene, normal_path(path));
 }
 
 std::optional<Shape> Model::solid(std::size_t index) const {

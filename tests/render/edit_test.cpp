@@ -209,6 +209,10 @@ TEST_CASE("a path tells its matrix, its placement, its region and what is below 
     CHECK(model.region("/all/wheel@2/rim.r") == 3);
     CHECK(model.region("all/hull.r/") == 6);
     CHECK(model.region("/all/wheel@2") == -1);
+    CHECK(model.regions("all/wheel@2/") == std::vector<std::uint32_t>{2, 3});
+    CHECK(model.regions("/all/hull.r") == std::vector<std::uint32_t>{6});
+    CHECK(model.regions("/").size() == 7);
+    CHECK(model.regions("/all/whee").empty());
     const auto listed = [](const Model& of, const std::string& path) {
         std::string text;
         for (const ChildInfo& child : of.children(path)) {
