@@ -122,6 +122,24 @@ std::vector<Request> Request::objects(const char* member) const {
     return all;
 }
 
+std::vector<std::pair<std::size_t, std::size_t>> Request::ranges(const char* member, std::size_t most) const {
+    std::vector<std::pair<std::size_t, std::size_t>> all;
+    const Json& value = get(member);
+    if (!value.is_array()) refuse(member, "expected a list");
+    const auto is_number = [](const Json& one) { return one.is_number_unsigned(); };
+    std::size_t before = 0;
+    for (const Json& one : value) {
+        if (!one.is_array() || one.size() != 2 || !std::ranges::all_of(one, is_number)) break;
+        const std::pair range(one[0].get<std::size_t>(), one[1].get<std::size_t>());
+        if (range.first < before || range.first >= range.second || range.second > most) break;
+        all.push_back(range);
+        before = range.second;
+    }
+    if (all.size() != value.size())
+        refuse(member, "expected ranges of numbers up to " + std::to_string(most) + ", in order");
+    return all;
+}
+
 PageView read_page_view(const Request& request) {
     PageView page;
     const Request view = request.object("view");

@@ -43,6 +43,8 @@ public:
     Vec3 vector(const char* member) const;
     Request object(const char* member) const { return {get(member), path(member)}; }
     std::vector<Request> objects(const char* member) const;  ///< none if the member is missing
+    /// Ranges [first, last) of whole numbers up to `most`, each behind the one before.
+    std::vector<std::pair<std::size_t, std::size_t>> ranges(const char* member, std::size_t most) const;
 
 private:
     void expect_object() const;

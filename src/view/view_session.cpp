@@ -14,6 +14,7 @@
 #include <limits>
 #include <numbers>
 #include <thread>
+#include <tuple>
 
 #include <csgrt/edit.hpp>
 #include <csgrt/error.hpp>
@@ -28,8 +29,10 @@ namespace csgrt {
 namespace {
 
 constexpr std::size_t most_edited = 16, most_pages = 256, most_pooled = 2;
-constexpr std::size_t most_answer_bytes = 64'000'000;  ///< four frames of 2000 x 2000
-constexpr std::chrono::milliseconds turn{5};           ///< between two checks whether a waiting request is still wanted
+constexpr std::size_t most_parts = 64;                             ///< of a request
+constexpr std::size_t export_bytes_of_pixel = 15 * sizeof(float);  ///< all channels
+constexpr double pass_ms = 25;                                ///< what a pass is to take; it may take twice as long
+constexpr double first_rays = 65536, telling_rays = 200'000;  ///< of a first pass; of one whose rate tells
 
 bool is_finite(const Box& box) {
     return box.low.x <= box.high.x &&
@@ -75,21 +78,6 @@ Json camera_of(const Model& model, const Camera& camera) {
             {"view_size", size}};
 }
 
-std::vector<std::string> paths_of(const Model& model) {
-    std::vector<std::string> paths;
-    for (const RegionInfo& region : model.regions()) paths.push_back(region.path);
-    std::ranges::sort(paths);
-    return paths;
-}
-
-/// Whether a region's path is `path` or lies below it.
-bool leads_somewhere(const std::vector<std::string>& paths, const std::string& path) {
-    return path == "/" || std::ranges::binary_search(paths, path) || [&] {
-        const auto next = std::ranges::lower_bound(paths, path + "/");
-        return next != paths.end() && next->starts_with(path + "/");
-    }();
-}
-
 /// Each pixel's difference from the pixel before, compressed. Neighbours are alike, so that the differences are small.
 std::string deflated(const std::vector<std::uint32_t>& pixels) {
     const std::size_t size = pixels.size() * sizeof pixels[0];
@@ -112,11 +100,36 @@ std::string bytes_of(const Value* values, std::size_t count) {
     return {reinterpret_cast<const char*>(values), count * sizeof(Value)};
 }
 
-/// Locks. False: is_wanted() ended the wait.
-bool take(std::unique_lock<std::timed_mutex>& lock, const std::function<bool()>& is_wanted) {
-    while (!lock.try_lock_for(turn))
-        if (!is_wanted()) return false;
-    return is_wanted();
+/// Copies a part of a picture to its place in the whole, which gets memory if an earlier picture of another form had
+/// it.
+void put(const Image& image, const View& view, Renderer& renderer, Image& whole) {
+    if (whole.width != view.width || whole.height != view.height || whole.names != image.names) {
+        View nothing = view;  // A picture of nothing is memory alone, and its drawing can be ended.
+        nothing.part = {};
+        nothing.samples = 1;
+        nothing.clip = {{{0, 0, 1}, -1e12}};
+        Framebuffer made;
+        renderer.render(nothing, made);
+        whole = made.take();
+    }
+    const auto size = [](int count) { return static_cast<std::size_t>(count); };
+    const std::size_t width = size(image.width), all = size(whole.width);
+    for (std::size_t c = 0; c < whole.channels.size(); ++c)
+        for (std::size_t row = 0; row < size(image.height); ++row)
+            std::ranges::copy(
+                image.channels.ids(c).subspan(row * width, width),
+                whole.channels.ids(c).subspan((size(view.part->top) + row) * all + size(view.part->left)).begin());
+}
+
+Json to_json(const RegionInfo& region, const Box& box) {
+    Json row = Json::object();  // lists of braces would copy each member twice
+    row["region_id"] = region.region_id;
+    row["air"] = region.air;
+    row["material_id"] = region.material_id;
+    row["los"] = region.los;
+    row["low"] = is_finite(box) ? to_json(box.low) : Json();
+    row["high"] = is_finite(box) ? to_json(box.high) : Json();
+    return row;
 }
 
 }  // namespace
@@ -134,31 +147,34 @@ std::string compressed(std::string_view bytes) {
 ViewSession::ViewSession(Model model, const Settings& settings, ViewerOptions options)
     : options_(std::move(options)),
       methods_(options_text(Settings{.precision = settings.precision, .display_shading = settings.display_shading})),
-      current_{.base = model, .paths = paths_of(model)},
+      current_{.base = model},
       settings_(settings) {
     make_renderer(quick_, model);
     device_ = quick_.renderer->statistics().device;
-    pixel_pool_.reserve(most_pooled);
+    pool_.reserve(most_pooled);
 }
 
-ViewSession::AnswerMemory::AnswerMemory(ViewSession& from, std::size_t bytes, const std::function<bool()>& is_wanted)
-    : session_(from) {
-    for (; is_wanted(); std::this_thread::sleep_for(turn)) {
+ViewSession::AnswerMemory::AnswerMemory(ViewSession& from, Budget& budget, std::size_t bytes,
+                                        const std::function<bool()>& is_wanted)
+    : session_(from), budget_(budget) {
+    for (; is_wanted(); std::this_thread::sleep_for(Turns::period)) {
         const std::lock_guard lock(session_.current_mutex_);
-        if (session_.answer_bytes_ > 0 && session_.answer_bytes_ + bytes > most_answer_bytes) continue;
-        session_.answer_bytes_ += bytes_ = bytes;
-        if (session_.pixel_pool_.empty()) return;
-        pixels = std::move(session_.pixel_pool_.back());
-        session_.pixel_pool_.pop_back();
+        if (budget_.used > 0 && budget_.used + bytes > budget_.most) continue;
+        budget_.used += bytes_ = bytes;
+        if (session_.pool_.empty()) return;
+        std::tie(pixels, whole) = std::move(session_.pool_.back());
+        session_.pool_.pop_back();
         return;
     }
 }
 
 ViewSession::AnswerMemory::~AnswerMemory() {
     const std::lock_guard lock(session_.current_mutex_);
-    session_.answer_bytes_ -= bytes_;
-    if (pixels.capacity() * sizeof pixels[0] <= most_answer_bytes && session_.pixel_pool_.size() < most_pooled)
-        session_.pixel_pool_.push_back(std::move(pixels));
+    budget_.used -= bytes_;
+    const std::size_t size = static_cast<std::size_t>(whole.width) * static_cast<std::size_t>(whole.height);
+    if (sizeof pixels[0] * (pixels.capacity() + size * whole.channels.size()) <= session_.answers_.most &&
+        session_.pool_.size() < most_pooled)
+        session_.pool_.emplace_back(std::move(pixels), std::move(whole));
 }
 
 Json ViewSession::model() const {
@@ -168,19 +184,15 @@ Json ViewSession::model() const {
     const std::uint64_t generation = current_.generation;
     lock.unlock();
 
-    Json regions = Json::array(), warnings = Json::array();
+    // Few looks differ, and a look is told once.
+    Json paths = Json::array(), looks = Json::array(), look_of = Json::array(), warnings = Json::array();
+    std::map<std::tuple<State, double, double, double>, std::size_t> known;
     for (const RegionInfo& region : model.regions()) {
-        Json& row = regions.emplace_back(Json::object());  // lists of braces would copy each member twice
-        row["path"] = region.path;
-        row["region_id"] = region.region_id;
-        row["air"] = region.air;
-        row["material_id"] = region.material_id;
-        row["los"] = region.los;
-        row["color"] = to_json(region.color);
-        row["state"] = name_of(state_names, region.state);
-        const bool has_box = is_finite(region.bounds);
-        row["low"] = has_box ? to_json(region.bounds.low) : Json();
-        row["high"] = has_box ? to_json(region.bounds.high) : Json();
+        const Vec3& color = region.color;
+        const auto [look, is_new] = known.try_emplace({region.state, color.x, color.y, color.z}, known.size());
+        if (is_new) looks.push_back({{"state", name_of(state_names, region.state)}, {"color", to_json(color)}});
+        paths.push_back(region.path);
+        look_of.push_back(look->second);
     }
     for (const Warning& warning : model.warnings()) {
         const Place& place = warning.place;
@@ -205,7 +217,9 @@ Json ViewSession::model() const {
               {"clip", Json::array()},
               {"looks", Json::array()},
               {"show", "color"}}},
-            {"regions", std::move(regions)},
+            {"paths", std::move(paths)},
+            {"own_looks", std::move(looks)},
+            {"look_of", std::move(look_of)},
             {"warnings", std::move(warnings)},
             {"exr", bool(options_.write_exr)},
             {"error", error.empty() ? Json(nullptr) : Json(error)}};
@@ -216,6 +230,32 @@ Json ViewSession::status() const {
     return {{"generation", current_.generation},
             {"error", current_.error.empty() ? Json(nullptr) : Json(current_.error)},
             {"device", device_}};
+}
+
+Json ViewSession::parts(const Request& request) const {
+    std::unique_lock lock(current_mutex_);
+    const Model model = current_.base;
+    const std::uint64_t generation = current_.generation;
+    lock.unlock();
+    if (request.number("generation") != static_cast<double>(generation))
+        throw Error(Status::usage, "the model has changed: ask again");
+    const std::vector<Request> wanted = request.objects("parts");
+    if (wanted.size() > most_parts) throw Error(Status::usage, "parts: expected at most " + std::to_string(most_parts));
+    Json rows = Json::array();
+    for (const Request& part : wanted) {
+        const auto ranges = part.ranges("regions", model.regions().size());
+        constexpr double far = std::numeric_limits<double>::infinity();
+        Vec3 low{far, far, far}, high{-far, -far, -far};
+        for (const auto& [first, last] : ranges)
+            for (std::size_t i = first; i < last; ++i) {
+                const Box& own = model.regions()[i].bounds;
+                if (!is_finite(own)) continue;
+                low = {std::min(low.x, own.low.x), std::min(low.y, own.low.y), std::min(low.z, own.low.z)};
+                high = {std::max(high.x, own.high.x), std::max(high.y, own.high.y), std::max(high.z, own.high.z)};
+            }
+        rows.push_back(ranges.empty() ? Json() : to_json(model.regions()[ranges.front().first], {low, high}));
+    }
+    return {{"rows", std::move(rows)}};
 }
 
 ViewSession::EditedModel ViewSession::model_with(const std::vector<Look>& looks) {
@@ -237,7 +277,7 @@ ViewSession::EditedModel ViewSession::model_with(const std::vector<Look>& looks)
     }
     Edit edit(current_.base);
     for (const Look& look : looks) {
-        if (!leads_somewhere(current_.paths, look.path)) continue;  // the region was in another version of the file
+        if (current_.base.regions(look.path).empty()) continue;  // the region was in another version of the file
         if (look.state) edit.set_state(look.path, *look.state);
         if (look.color) edit.set_color(look.path, *look.color);
     }
@@ -254,8 +294,8 @@ void ViewSession::make_renderer(Drawer& drawer, const Model& model) {
 
 bool ViewSession::draw_with(Drawer& drawer, const Model& model, const std::function<bool()>& is_wanted,
                             const std::function<void(Renderer&)>& draw) {
-    std::unique_lock lock(drawer.mutex, std::defer_lock);
-    if (!take(lock, is_wanted)) return false;
+    const Turns::Turn turn(drawer.turns, is_wanted);
+    if (!turn) return false;
     struct Wanted {
         const std::function<bool()>*& by_renderer;
         ~Wanted() { by_renderer = nullptr; }
@@ -272,6 +312,41 @@ bool ViewSession::draw_with(Drawer& drawer, const Model& model, const std::funct
     }
     const std::lock_guard current(current_mutex_);
     device_ = drawer.renderer->statistics().device;
+    return true;
+}
+
+void ViewSession::note_picture(double rays, double ms) {
+    if (rays > telling_rays || ms > pass_ms) rays_of_pass_ = rays * pass_ms / std::max(ms, 0.01);
+}
+
+bool ViewSession::draw_in_passes(const Model& model, View view, const std::function<bool()>& is_wanted, Image& whole,
+                                 double& ms) {
+    const double all = static_cast<double>(view.width) * view.height * view.samples;
+    PixelRectangle part;
+    double rays = std::min(rays_of_pass_.load(), first_rays);  // of the next pass
+    const auto side = [&](int across, int left) {
+        constexpr int tile = 8;  // a Renderer draws these squares whole
+        return std::min(left, std::max(tile, static_cast<int>(rays / view.samples / across) / tile * tile));
+    };
+    for (; part.top < view.height; part.top += part.height) {
+        part.height = side(view.width, view.height - part.top);
+        for (part.left = 0; part.left < view.width; part.left += part.width) {
+            part.width = side(part.height, view.width - part.left);
+            view.part = part;
+            double took = 0;
+            if (!draw_with(slow_, model, is_wanted, [&](Renderer& renderer) {
+                    renderer.render(view, slow_.framebuffer);
+                    took = renderer.statistics().ms.frame;
+                    put(slow_.framebuffer.image(), view, renderer, whole);
+                }))
+                return false;
+            ms += took;
+            const double drawn = static_cast<double>(part.width) * part.height * view.samples;
+            // Where there is only background a pass is quick: what comes next may not be.
+            rays = std::min({drawn * pass_ms / std::max(took, 0.01), 4 * drawn, 2 * rays_of_pass_});
+        }
+    }
+    note_picture(all, ms);
     return true;
 }
 
@@ -296,7 +371,11 @@ void ViewSession::frame(const Request& request, const Client& client) {
     try {
         const std::size_t count =
             static_cast<std::size_t>(page.view.width) * static_cast<std::size_t>(page.view.height);
-        AnswerMemory memory(*this, sizeof(std::uint32_t) * count * (deflates ? 3 : 1), is_newest);
+        const double rays = static_cast<double>(count) * page.view.samples;
+        // A page waits for its picture of one ray a pixel: passes would make it wait longer.
+        const bool is_slow = rays > (page.view.samples > 1 ? 2 : 8) * rays_of_pass_;
+        AnswerMemory memory(*this, answers_, sizeof(std::uint32_t) * count * ((deflates ? 3 : 1) + (is_slow ? 2 : 0)),
+                            is_newest);
         if (!memory) return send(cancelled);
         const auto [model, generation] = model_with(page.looks);
         const bool has_ghosts =
@@ -307,14 +386,20 @@ void ViewSession::frame(const Request& request, const Client& client) {
                      {"generation", generation},   {"encoding", deflates ? "deflate" : "raw"}};
         std::vector<std::uint32_t>& pixels = memory.pixels;
         pixels.resize(count);
-        Drawer& drawer = page.view.samples > 1 ? slow_ : quick_;
-        if (!draw_with(drawer, model, is_newest, [&](Renderer& renderer) {
-                renderer.render(page.view, drawer.framebuffer);
-                head["draw_ms"] = renderer.statistics().ms.frame;
-                head["device"] = renderer.statistics().device;
-                paint(drawer.framebuffer.image(), page.show, pixels);
-            }))
+        double ms = 0;
+        if (is_slow) {
+            if (!draw_in_passes(model, page.view, is_newest, memory.whole, ms)) return send(cancelled);
+            paint(memory.whole, page.show, pixels);
+        } else if (!draw_with(quick_, model, is_newest, [&](Renderer& renderer) {
+                       renderer.render(page.view, quick_.framebuffer);
+                       ms = renderer.statistics().ms.frame;
+                       note_picture(rays, ms);
+                       paint(quick_.framebuffer.image(), page.show, pixels);
+                   })) {
             return send(cancelled);
+        }
+        head["draw_ms"] = ms;
+        head["device"] = status().at("device");
         if (deflates) return send(head, deflated(pixels));
         send(head, {reinterpret_cast<const char*>(pixels.data()), 4 * pixels.size()});
     } catch (const Error& error) {
@@ -370,8 +455,8 @@ Json ViewSession::command(const Request& request) const {
 void ViewSession::slice(const Request& request, const Client& client) {
     const Slice slice = read_slice(request);
     const Model model = model_with(read_page_view(request).looks).model;
-    const AnswerMemory memory(*this, sizeof(std::int32_t) * static_cast<std::size_t>(slice.width) * slice.height,
-                              client.is_wanted);
+    const AnswerMemory memory(
+        *this, answers_, sizeof(std::int32_t) * static_cast<std::size_t>(slice.width) * slice.height, client.is_wanted);
     Array<std::int32_t> ids;
     if (!memory || !draw_with(quick_, model, client.is_wanted, [&](Renderer& by) { by.slice(slice, ids); })) return;
     client.send({{reinterpret_cast<const char*>(ids.data()), ids.size() * sizeof ids.data()[0]}}, 0);
@@ -382,13 +467,13 @@ void ViewSession::exr(const Request& request, const Client& client) {
     PageView page = read_page_view(request);
     page.view.every_partition = true;
     page.view.channels = channel::all;
-    std::unique_lock alone(exporting_, std::defer_lock);  // a large image takes gigabytes
-    if (!take(alone, client.is_wanted)) return;
+    const std::size_t pixels = static_cast<std::size_t>(page.view.width) * static_cast<std::size_t>(page.view.height);
+    const AnswerMemory memory(*this, exports_, export_bytes_of_pixel * pixels, client.is_wanted);
+    const Model model = model_with(page.looks).model;
     Image image;
-    if (!draw_with(slow_, model_with(page.looks).model, client.is_wanted, [&](Renderer& renderer) {
-            image = renderer.render(page.view);
-            renderer.name_pixels(image);
-        }))
+    double ms = 0;
+    if (!memory || !draw_in_passes(model, page.view, client.is_wanted, image, ms) ||
+        !draw_with(slow_, model, client.is_wanted, [&](Renderer& renderer) { renderer.name_pixels(image); }))
         return;
     image.attributes["csgrt:command"] = picture_command(page);
     const PrivateFolder folder;
@@ -409,9 +494,8 @@ void ViewSession::exr(const Request& request, const Client& client) {
 void ViewSession::load_again() {
     try {
         const Model model = options_.load();
-        auto paths = paths_of(model);
         const std::lock_guard lock(current_mutex_);
-        current_ = {.base = model, .paths = std::move(paths), .generation = current_.generation + 1};
+        current_ = {.base = model, .generation = current_.generation + 1};
     } catch (const std::bad_alloc&) {
         set_error("not enough memory to load the model again");
     } catch (const std::exception& failure) {

@@ -20,6 +20,7 @@
 #include <csgrt/viewer.hpp>
 
 #include "view/page_request.hpp"
+#include "view/turns.hpp"
 
 namespace csgrt {
 
@@ -41,8 +42,12 @@ public:
     /// Throws as Renderer does.
     ViewSession(Model model, const Settings& settings, ViewerOptions options);
 
+    /// The model, with the paths and looks of its regions in columns.
     Json model() const;
     Json status() const;
+    /// What the page shows of parts, which are lists of regions: the numbers of each part's first region, and the box
+    /// around the part.
+    Json parts(const Request& request) const;
     Json pick(const Request& request);
     Json command(const Request& request) const;
     /// Sends a region's index for each pixel, in 4 bytes. -1: no region is there; -2: several are.
@@ -63,7 +68,6 @@ private:
     /// The model as it was loaded, and the models that pages' looks made of it.
     struct Current {
         Model base;
-        std::vector<std::string> paths = {};  ///< of its regions, in order
         std::uint64_t generation = 1;
         std::string error = {};
         std::list<std::pair<std::string, Model>> edited = {};  ///< most recently used first, by the text of their looks
@@ -77,32 +81,43 @@ private:
     EditedModel model_with(const std::vector<Look>& looks);
     /// A Renderer, which draws one picture at a time.
     struct Drawer {
-        std::timed_mutex mutex = {};
+        Turns turns = {};
         const std::function<bool()>* wanted = nullptr;  ///< whether what is drawn now is still wanted
         Framebuffer framebuffer = {};
         std::optional<Renderer> renderer = {};
     };
     void make_renderer(Drawer& drawer, const Model& model);
-    /// Waits until the drawer draws nothing else, gives its Renderer the model and calls draw(). False: is_wanted()
-    /// ended the wait or the drawing.
+    /// Waits until the drawer's turn comes, gives its Renderer the model and calls draw(). False: is_wanted() ended the
+    /// wait or the drawing.
     bool draw_with(Drawer& drawer, const Model& model, const std::function<bool()>& is_wanted,
                    const std::function<void(Renderer&)>& draw);
+    /// Notes that a picture of so many rays took so many ms.
+    void note_picture(double rays, double ms);
+    /// Draws a picture in short passes of slow_, each of them a rectangle of its pixels. Other pages draw theirs
+    /// between two passes. Adds to `ms` what the passes take. False: is_wanted() ended the drawing.
+    bool draw_in_passes(const Model& model, View view, const std::function<bool()>& is_wanted, Image& whole,
+                        double& ms);
 
-    /// Memory for an answer while the answer is made and sent. All such memory together is at most most_answer_bytes,
-    /// except that one answer may always be made. Pixels go back to `pixel_pool_` for the next answer.
+    /// Memory for answers of a kind. One answer may always be made, and others while all together take at most `most`.
+    struct Budget {
+        std::size_t most, used = 0;
+    };
+    /// Memory for an answer while the answer is made and sent. It goes back to `pool_` for the next answer.
     class AnswerMemory {
     public:
         /// Waits until there is enough memory. The object is false if is_wanted() ended the wait.
-        AnswerMemory(ViewSession& from, std::size_t bytes, const std::function<bool()>& is_wanted);
+        AnswerMemory(ViewSession& from, Budget& budget, std::size_t bytes, const std::function<bool()>& is_wanted);
         ~AnswerMemory();
         AnswerMemory(const AnswerMemory&) = delete;
         AnswerMemory& operator=(const AnswerMemory&) = delete;
         explicit operator bool() const { return bytes_ > 0; }
 
         std::vector<std::uint32_t> pixels = {};
+        Image whole = {};
 
     private:
         ViewSession& session_;
+        Budget& budget_;
         std::size_t bytes_ = 0;
     };
 
@@ -112,15 +127,16 @@ private:
     Current current_;
     std::string device_;  ///< the device that drew last; current_mutex_ guards it, too
     std::map<std::string, std::shared_ptr<std::atomic<std::uint64_t>>> pages_;
-    /// Pixels of finished answers. New memory would take the system longer than the picture takes a GPU.
-    std::vector<std::vector<std::uint32_t>> pixel_pool_;
-    std::size_t answer_bytes_ = 0;
+    /// Memory of finished answers. New memory would take the system longer than the picture takes a GPU.
+    std::vector<std::pair<std::vector<std::uint32_t>, Image>> pool_;
+    Budget answers_{64'000'000};  ///< four frames of 2000 x 2000
+    Budget exports_{1'000'000'000};
 
-    std::timed_mutex exporting_;
     const Settings settings_;
-    /// Pictures of one ray a pixel, and slices; the others, which take long. The second Renderer is made when it is
-    /// needed first.
+    /// For pictures that take as long as a few passes at most, and slices; for the others, in passes. The second
+    /// Renderer is made when it is needed first.
     Drawer quick_, slow_;
+    std::atomic<double> rays_of_pass_{1 << 20};  ///< as many as the last pictures let expect
 };
 
 }  // namespace csgrt

@@ -101,6 +101,7 @@ struct Viewer::Impl {
             exchange.answer(http::good, "application/octet-stream", {compressed(text)});
         };
         answer_by("status", [this](const Request&) { return session.status(); });
+        answer_by("parts", [this](const Request& request) { return session.parts(request); });
         answer_by("pick", [this](const Request& request) { return session.pick(request); });
         answer_by("command", [this](const Request& request) { return session.command(request); });
         answers["end"] = [this](const Request&, Exchange& exchange) {

@@ -367,7 +367,8 @@ class Browser(unittest.TestCase):
                 self.assertGreaterEqual(share, 0.6, f"of {width}")
                 corners = page.js("return corners(bounds()).map(p => on_screen(view.camera, p))")
                 page.press("view-iso").press("fit").press("toggle-cut").press("add-plane").press("cut-0-slice")
-                page.click(*page.screen([80, 45, 40]))
+                page.click(*page.screen([80, 30, 30]))
+                self.assertIn("overlap from", page.text("end-rows"))
                 for places in (corners, page.js("return corners(bounds()).map(p => on_screen(view.camera, p))")):
                     for x, y in places:
                         self.assertTrue(-1 <= x <= width and -1 <= y <= height, (width, x, y))
@@ -448,8 +449,8 @@ class Browser(unittest.TestCase):
     def test_keys_reach_everything(self):
         page = self.page
         page.click(*self.middle)
-        page.set("show", "depth", "change")
-        for name, key, azimuth in (("show", "3", 270), ("selected-color", "1", 0)):  # what was used has the focus
+        page.set("show", "depth", "change").press("toggle-cut").press("add-plane")
+        for name, key, azimuth in (("show", "3", 270), ("selected-color", "1", 0), ("cut-0-slider", "9", 35)):
             page.js("document.getElementById(arguments[0]).focus()", name)
             page.keys(key)
             self.assertEqual(page.view()["camera"]["azimuth"], azimuth)
@@ -565,7 +566,7 @@ class Browser(unittest.TestCase):
     def test_the_slice_of_a_plane(self):
         page = self.page
         page.press("toggle-cut").press("add-plane").set("cut-0-distance", "30").press("cut-0-slice")
-        name = page.js("return Object.fromEntries(model.regions.map(r => [r.id, r.path]))")
+        name = page.js("return Object.fromEntries(Object.entries(model.paths))")
 
         def drawn():
             page.wait(lambda: page.js("return !slice.busy && !slice.again && slice.ids !== null"))
@@ -795,7 +796,7 @@ class Browser(unittest.TestCase):
             self.assertEqual(page.view()["looks"], [{"path": "/all/front.r", "state": "hidden"}])
         finally:
             self.write("boxes.json", scene())
-            page.wait(lambda: page.js("return csgrt.model.regions.length") == 4)
+            page.wait(lambda: page.js("return csgrt.model.paths.length") == 4)
 
     def test_saved_files(self):
         page = self.page

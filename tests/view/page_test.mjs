@@ -44,7 +44,19 @@ test("a turn keeps the pivot in its place, a zoom and a pan what is under the po
   }
 });
 
-const regions_of = paths => paths.map(path => ({path, state: "shown", color: [1, 1, 1]}));
+const regions_of = paths => ({paths, own_looks: [{state: "shown", color: [1, 1, 1]}], look_of: paths.map(() => 0)});
+test("parts are asked for as ranges of the model's list", () => {
+  const table = looks.region_table({paths: ["/b/2", "/a", "/c", "/b/1", "/b/3"], look_of: [0, 1, 1, 0, 0],
+    own_looks: [{state: "ghost", color: [1, 0, 0]}, {state: "hidden", color: [0, 1, 0]}]});
+  assert.deepEqual([...table.ids], [1, 3, 0, 4, 2]);
+  assert.deepEqual([...table.states], [2, 1, 1, 1, 2]);
+  assert.deepEqual(table.colors.map(color => color[0]), [0, 1, 1, 1, 0]);
+  const listed = (...paths) => looks.listed_ranges(table, paths.map(path => looks.range_of(table.paths, path)));
+  assert.deepEqual(listed("/b"), [[0, 1], [3, 5]]);
+  assert.deepEqual(listed("/b", "/b/3", "/a", "/gone"), [[0, 2], [3, 5]]);
+  assert.deepEqual(listed("/", "/c"), [[0, 5]]);
+  assert.deepEqual(listed(), []);
+});
 test("a path means all regions below it, and no path that only begins alike", () => {
   const {paths} = looks.region_table(regions_of(["/a/b", "/a.r", "/a/b.c", "/a/b/c", "/a!", "/ab"]));
   const below = path => paths.slice(...looks.range_of(paths, path)).sort();

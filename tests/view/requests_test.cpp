@@ -82,7 +82,8 @@ const std::string& one_of(Random& random, const std::vector<std::string>& list) 
 /// A right request, of which in most cases something is changed.
 std::string request(Random& random, const std::string& root, const std::string& host, const std::string& view) {
     static const std::vector<std::string> methods = {"POST", "GET", "HEAD", "PUT", "DELETE", "OPTIONS", "PRI", "\x01"};
-    static const std::vector<std::string> names = {"model", "status", "frame", "pick", "slice", "command", "exr", "x"};
+    static const std::vector<std::string> names = {"model",   "status", "frame", "pick", "slice",
+                                                   "command", "exr",    "parts", "x"};
     static const std::vector<std::string> paths = {"/etc/passwd", "/../../etc/passwd", "//", "/%2e%2e/%00", "*",
                                                    "http:"};
     static const std::vector<std::string> headers = {"Content-Length: 18446744073709551615",
@@ -99,7 +100,7 @@ std::string request(Random& random, const std::string& root, const std::string& 
     static const std::vector<std::string> values = {"1e999", "-1", "null", "[]", "{}", "\"\"", "1e300", "0", "true"};
     std::string body = R"({"page":"r","number":)" + std::to_string(random() % 1000) +
                        R"(,"samples":1,"encoding":"raw","width":9,"height":7,"x":3,"y":2,"center":[0,0,0],)"
-                       R"("right":[9,0,0],"up":[0,9,0],"view":)" +
+                       R"("generation":1,"parts":[{"regions":[[0,2],[3,4]]}],"right":[9,0,0],"up":[0,9,0],"view":)" +
                        view + "}";
     if (random() % 2) {  // another value somewhere
         const std::size_t colon = body.find(':', random() % body.size());

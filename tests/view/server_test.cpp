@@ -217,10 +217,70 @@ TEST_CASE("view: a slice and an EXR are those of Model and Renderer", "[view]") 
     CHECK(sliced->body == std::string(reinterpret_cast<const char*>(ids.data()), ids.size() * 4));
 
     Folder folder;
+    request.update({{"width", 403}, {"height", 299}});  // several passes
     std::ofstream(folder / "a.exr", std::ios::binary) << page.post("exr", request)->body;
     const Image read = read_image(folder / "a.exr");
     Renderer renderer(model);
-    CHECK(read.channels == renderer.render(view_of(request["view"])).channels);
+    View view = view_of(request["view"]);
+    view.width = 403;
+    view.height = 299;
+    const Image whole = renderer.render(view);
+    CHECK((read.channels == whole.channels && read.matrices == whole.matrices));
+}
+
+TEST_CASE("view: a picture that takes several passes is that of one, ghosts included", "[view][promise:page]") {
+    const Model model = operators();
+    const PageClient page(model);
+    json view = page.ask("model")["view"];
+    view["looks"] = {{{"path", "/operators/union"}, {"state", "ghost"}}};
+    json request = {{"view", view}, {"width", 651}, {"height", 403}};
+    const std::string middles = page.frame(request).pixels;
+    request["samples"] = 64;  // seventeen million rays
+    const std::string means = page.frame(request).pixels;
+    REQUIRE(means.size() == middles.size());
+    View wanted = view_of(view);
+    wanted.width = 651;
+    wanted.height = 403;
+    wanted.samples = 64;
+    Renderer renderer(Edit(model).set_state("/operators/union", State::ghost).commit());
+    const std::string without = display_bytes(renderer, wanted);
+    wanted.samples = 1;
+    const std::string without_of_middles = display_bytes(renderer, wanted);
+    std::size_t lines = 0, wrong = 0;
+    for (std::size_t i = 0; i < means.size(); i += 4) {  // the outline's pixels are the same
+        const bool is_line = middles.compare(i, 4, without_of_middles, i, 4) != 0;
+        lines += is_line;
+        wrong += means.compare(i, 4, is_line ? middles : without, i, 4) != 0;
+    }
+    CHECK(lines > 100);
+    CHECK(wrong < lines / 10);  // an outline may have the colour of what is behind it
+}
+
+TEST_CASE("view: parts are told as they are asked for", "[view]") {
+    const Model model = operators();
+    const PageClient page(model);
+    const json whole = page.ask("model");
+    REQUIRE(whole["paths"].size() == model.regions().size());
+    for (std::size_t i = 0; i < model.regions().size(); ++i) {
+        const RegionInfo& region = model.regions()[i];
+        const json& look = whole["own_looks"][whole["look_of"][i].get<std::size_t>()];
+        CHECK(whole["paths"][i] == region.path);
+        CHECK(look == json{{"state", "shown"}, {"color", {region.color.x, region.color.y, region.color.z}}});
+    }
+    const auto told = [&](const json& ranges, int generation = 1) {
+        return page.ask("parts", {{"generation", generation}, {"parts", {{{"regions", ranges}}}}});
+    };
+    const json row = told({{2, 3}, {5, 6}})["rows"][0];
+    const RegionInfo &first = model.regions()[2], &second = model.regions()[5];
+    CHECK(row["region_id"] == first.region_id);
+    CHECK(row["material_id"] == first.material_id);
+    CHECK(row["low"][1] == std::min(first.bounds.low.y, second.bounds.low.y));
+    CHECK(row["high"][2] == std::max(first.bounds.high.z, second.bounds.high.z));
+    CHECK(told(json::array())["rows"] == json{nullptr});
+    CHECK(told({{0, 1}}, 2)["error"] == "the model has changed: ask again");
+    for (const json& wrong :
+         {json{{0, 1'000'000}}, json{{2, 3}, {0, 1}}, json{{1, 1}}, json{{-1, 1}}, json{{1}}, json{1}, json(7)})
+        CHECK_THAT(told(wrong)["error"].get<std::string>(), ContainsSubstring("parts[0].regions: expected"));
 }
 
 TEST_CASE("view: what is no colour is shown, too, and a ghost has an outline", "[view][promise:page]") {
@@ -282,6 +342,24 @@ TEST_CASE("view: a page that refines its picture keeps no other page waiting", "
     refining.join();
 }
 
+TEST_CASE("view: pages that refine their pictures or export them take turns", "[view][promise:page]") {
+    auto page = std::make_unique<PageClient>(operators(), ViewerOptions{.write_exr = write_exr});
+    const json view = page->ask("model")["view"];
+    std::thread refining([&client = *page, &view] {
+        client.frame({{"view", view}, {"width", 2048}, {"height", 2048}, {"samples", 256}, {"page", "refines"}});
+    });
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    const json other = {{"view", view},          {"width", 400}, {"height", 400},    {"samples", 16},
+                        {"page", "refines too"}, {"number", 1},  {"encoding", "raw"}};
+    for (const char* name : {"frame", "exr"}) {
+        const auto answer = page->connect(20'000).ask("POST", page->root() + "api/" + name, other.dump());
+        REQUIRE(answer);  // the first page's picture takes minutes
+        CHECK(answer->body.size() > 4 * 400 * 400);
+    }
+    page->ask("end");
+    refining.join();
+}
+
 TEST_CASE("view: the frame of a client that is gone ends", "[view]") {
     const PageClient page(operators());
     const json slow = {{"view", page.ask("model")["view"]},
@@ -330,7 +408,7 @@ TEST_CASE("view: a changed file is seen, and one that does not load leaves the o
     std::filesystem::copy_file(std::getenv("CSGRT_SCENES") + std::string("/overlap.json"), file,
                                std::filesystem::copy_options::overwrite_existing);
     CHECK(until([](const json& status) { return status["generation"] == 2 && status["error"].is_null(); }));
-    CHECK(page.ask("model")["regions"][0]["path"].get<std::string>().starts_with("/overlap"));
+    CHECK(page.ask("model")["paths"][0].get<std::string>().starts_with("/overlap"));
 
     const auto says = [&](const std::string& what) {
         return until([&](const json& status) {

@@ -257,7 +257,7 @@ TEST_CASE("view: pages that wait for large frames share memory", "[view][promise
     CHECK(whole == 60);
     CAPTURE(before, most);
 #ifndef CSGRT_SANITIZED
-    CHECK(most < before + 128 * 1024);
+    CHECK(most < before + 256 * 1024);  // two Renderers have memory for a picture, and four answers
 #endif
 }
 

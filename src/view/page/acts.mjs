@@ -1,11 +1,10 @@
 // What a user does to parts: states, colours, fits; and the steps that undo and redo go.
-import {answer, draw_answer, draw_selected, hold_answer, previous} from "./ask.mjs";
+import {answer, ask_parts, draw_answer, draw_selected, hold_answer, previous} from "./ask.mjs";
 import {fitted} from "./camera.mjs";
 import {build_planes} from "./cut.mjs";
 import {by} from "./dom.mjs";
 import {changed} from "./frames.mjs";
 import {apply_looks, with_looks, with_state_of_all, without_colors} from "./looks.mjs";
-import {union_of} from "./numbers.mjs";
 import {slice_changed} from "./slice.mjs";
 import {bounds, range, regions, view} from "./state.mjs";
 import {draw_tree} from "./tree.mjs";
@@ -39,10 +38,12 @@ export function forget_answers() {
   steps.change(state => ({...state, ...none}));
 }
 const set_looks = (paths, member, value) => { view.looks = with_looks(regions, view.looks, paths, member, value); };
-function fit(parts) {
-  view.camera = fitted(view.camera, union_of(parts) ?? bounds());
+function fit_box(box, event) {
+  view.camera = fitted(view.camera, box);
+  changed(event);
 }
-const parts_of = paths => paths.flatMap(path => regions.sorted.slice(...range(path)));
+const fit_ranges = (ranges, event) =>
+  ask_parts("fit", [ranges], ([row]) => fit_box(row?.low ? row : bounds(), event));
 export const act = {
   state(paths, state, event) {
     set_looks(paths, "state", state);
@@ -61,20 +62,19 @@ export const act = {
     act.state(paths, "shown", event);
   },
   isolate_fit(paths, event) {
-    fit(parts_of(paths));
     act.isolate(paths, event);
+    fit_ranges(paths.map(range), event);
   },
   show_all(event) {
     view.looks = with_state_of_all(regions, view.looks, "shown");
     looked(event);
   },
-  fit(paths, event) {
-    fit(parts_of(paths));
-    changed(event);
-  },
+  fit: (paths, event) => fit_ranges(paths.map(range), event),
   fit_shown(event) {
-    fit(regions.sorted.filter((_, i) => regions.states[i] < 2));
-    changed(event);
+    if (!regions.states.includes(2)) return fit_box(bounds(), event);
+    const shown = [];
+    regions.states.forEach((state, i) => { if (state < 2) shown.push([i, i + 1]); });
+    fit_ranges(shown, event);
   },
 };
 /// Draws everything that looks change.

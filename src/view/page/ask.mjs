@@ -3,26 +3,52 @@ import {remember} from "./acts.mjs";
 import {keep_address} from "./address.mjs";
 import {size} from "./camera.mjs";
 import {by, el, is_focused, named, rove} from "./dom.mjs";
-import {hook, keep, loop, when_painted} from "./frames.mjs";
-import {last_leg} from "./looks.mjs";
+import {hook, keep, loop, wake, when_painted} from "./frames.mjs";
+import {last_leg, listed_ranges} from "./looks.mjs";
 import {load_model} from "./main.mjs";
 import {pointers} from "./mouse.mjs";
 import {ask, attempt} from "./net.mjs";
-import {clamp, css, dot, hex, ink_on, minus, number, numbers, union_of} from "./numbers.mjs";
+import {clamp, css, dot, hex, ink_on, minus, number, numbers} from "./numbers.mjs";
 import {draw_overlay} from "./overlay.mjs";
 import {open_panel} from "./panels.mjs";
 import {color_of, ended, hold, model, path_of, range, regions, selected, selection, view} from "./state.mjs";
 import {draw_tree, reveal, state_word} from "./tree.mjs";
 
 export let answer = null, previous = null;  // the last answer, and the point that was clicked before
-/// The boxes of the selected parts that are bounded.
+/// The boxes of the selected parts that are bounded, and what the server told of all of them together.
 export let selected_boxes = [];
+let selected_row = null;
+const MOST_BOXES = 50;
+/// Asks for the numbers of parts, which are lists of ranges of the table, and for the boxes around them, and uses the
+/// answer.
+export async function ask_parts(key, parts, use) {
+  loop.asking++;
+  const asked = {generation: model.generation, parts: parts.map(ranges => ({regions: listed_ranges(regions, ranges)}))};
+  const made = await attempt(key, () => ask("parts", asked));
+  if (made) use(made.rows);
+  loop.asking--;
+  wake();
+}
+/// Asks for the selected parts, and draws them.
+export function ask_selected() {
+  const of = selection, [all, ...boxes] = [of.map(range), ...of.slice(-MOST_BOXES).map(path => [range(path)])];
+  selected_row = null;
+  selected_boxes = [];
+  draw_selected();
+  if (of.length) ask_parts("selected", [all, ...boxes], ([row, ...others]) => {
+    if (selection !== of) return;
+    selected_row = row;
+    selected_boxes = others.filter(other => other?.low);
+    draw_selected();
+    draw_overlay();
+  });
+}
 /// Selects the parts of these paths, and no others. The last of them comes into sight.
 export function select(...paths) {
   hold({selection: paths});
   if (selected !== null) reveal(selected);
   draw_tree();
-  draw_selected();
+  ask_selected();
   for (const part of by("beam").querySelectorAll("button"))
     part.ariaPressed = String(selection.includes(part.dataset.path));
   keep_address();
@@ -37,18 +63,17 @@ export function draw_selected() {
   by("selected").hidden = selected === null;
   by("hint").hidden = selected !== null || answer !== null;
   if (selected === null) return;
-  const [low] = range(selected), region = regions.sorted[low], ranges = selection.map(range);
-  selected_boxes = ranges.map(([low, high]) => union_of(regions.sorted.slice(low, high))).filter(Boolean);
-  const box = union_of(selected_boxes), several = selection.length > 1;
+  const [low] = range(selected), ranges = selection.map(range), several = selection.length > 1;
+  const count = ranges.reduce((sum, [low, high]) => sum + high - low, 0), row = selected_row;
   by("selected-swatch").style.background = css(regions.colors[low]);
   by("selected-path").textContent = several ? `${selection.length} parts` : selected;
   by("selected-path").title = selection.slice(-30).join("\n");
   if (!is_focused(by("selected-color"))) by("selected-color").value = hex(regions.colors[low]);
   facts("selected-facts", [
-    ...several || region.path !== selected ? [["regions", ranges.reduce((sum, [low, high]) => sum + high - low, 0)]] :
-      [["region id", region.region_id], ["material", region.material_id], ["air", region.air], ["los", region.los]],
+    ...several || regions.paths[low] !== selected ? [["regions", count]] : !row ? [] :
+      [["region id", row.region_id], ["material", row.material_id], ["air", row.air], ["los", row.los]],
     ["state", state_word(ranges)],
-    ["box", box ? minus(box.high, box.low).map(v => number(v, 5)).join(" x ") : "open"]]);
+    ...!row ? [] : [["box", row.low ? minus(row.high, row.low).map(v => number(v, 5)).join(" x ") : "open"]]]);
 }
 /// Asks what stands at a place of the picture: the server is told whole pixels of the full one.
 export async function ask_pixel(x, y, brief) {

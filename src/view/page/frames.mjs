@@ -13,8 +13,9 @@ import {ended, model, view} from "./state.mjs";
 
 export const MOST_SIDE = 8192;
 const REST_MS = 60, BUSY_MS = 300;
+/// `asking` counts questions about parts, whose answers may change the view.
 export const loop = {revision: 0, job: null, number: 0, failed: -1, moving: false, rest: 0, divisor: 4, wall: 0,
-                     wall_of: 0, deflate: false, rates: [], inputs: [], last_input: 0, waiting: [],
+                     wall_of: 0, deflate: false, rates: [], inputs: [], last_input: 0, waiting: [], asking: 0,
                      shown: {revision: -1, divisor: 0, samples: 0, camera: null}};
 /// The hook is what tests look at. `latencies`: from an input to its pixels, ms; `fulls`: from the last input to the
 /// full picture; `answers`: from a click to its answer; `samples`: the most rays a pixel.
@@ -139,8 +140,8 @@ function show_frame(job, head, {buffer, byteOffset, length}) {
   });
   if (is_rest) ask_hover();
 }
-function wake() {
-  if (!view || loop.moving || !is_current() || loop.shown.divisor > 1) return;
+export function wake() {
+  if (!view || loop.moving || loop.asking || !is_current() || loop.shown.divisor > 1) return;
   loop.waiting = loop.waiting.filter(({samples, done}) =>
     loop.shown.samples < Math.min(samples, samples_wanted()) || done());
 }

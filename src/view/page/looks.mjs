@@ -5,16 +5,31 @@ export const STATES = ["shown", "ghost", "hidden"];
 export const covers = (path, other) => path === "/" || other === path || other.startsWith(path + "/");
 export const last_leg = path => path.slice(path.lastIndexOf("/") + 1);
 
-/// A table of regions as the server lists them: {path, state, color, low, high}, with `id`, their place in the list.
-export function region_table(list) {
-  const sorted = list.map((region, id) => Object.assign(region, {id}))
-    .sort((a, b) => a.path < b.path ? -1 : a.path > b.path ? 1 : 0);
-  const rank = new Uint32Array(list.length);
-  sorted.forEach((region, i) => { rank[region.id] = i; });
-  const own_states = Uint8Array.from(sorted, region => Math.max(0, STATES.indexOf(region.state)));
-  const own_colors = sorted.map(region => region.color);
-  return {sorted, paths: sorted.map(region => region.path), rank, own_states, own_colors,
-          states: own_states, colors: own_colors};
+/// A table of regions as the server lists them: `paths`, and for each region `look_of`, its place in the looks
+/// {state, color} that regions have. The table is sorted by path; `ids` are the places in the list.
+export function region_table({paths: listed, own_looks, look_of}) {
+  const ids = Uint32Array.from(listed, (_, id) => id).sort((a, b) => listed[a] < listed[b] ? -1 : 1);
+  const rank = new Uint32Array(ids.length);
+  ids.forEach((id, i) => { rank[id] = i; });
+  const paths = Array.from(ids, id => listed[id]), looks = Array.from(ids, id => own_looks[look_of[id]]);
+  const own_states = Uint8Array.from(looks, look => Math.max(0, STATES.indexOf(look.state)));
+  const own_colors = looks.map(look => look.color);
+  return {paths, ids, rank, own_states, own_colors, states: own_states, colors: own_colors};
+}
+/// Ranges of the table as ranges [first, last) of the model's list, in order.
+export function listed_ranges({ids}, ranges) {
+  const listed = new Uint32Array(ranges.reduce((sum, [low, high]) => sum + high - low, 0)), made = [];
+  let count = 0;
+  for (const [low, high] of ranges) {
+    listed.set(ids.subarray(low, high), count);
+    count += high - low;
+  }
+  listed.sort();
+  for (const id of listed) {
+    if (made.at(-1)?.[1] === id) made.at(-1)[1]++;
+    else if (!(id < made.at(-1)?.[1])) made.push([id, id + 1]);  // ranges may meet
+  }
+  return made;
 }
 function lower_bound(paths, path) {
   let low = 0, high = paths.length;

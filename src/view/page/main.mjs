@@ -1,7 +1,7 @@
 // The model as the server has it, and the start.
 import {act, forget_answers, go_step} from "./acts.mjs";
 import {checked_view, read_address} from "./address.mjs";
-import {copy, draw_answer, draw_selected} from "./ask.mjs";
+import {ask_selected, copy, draw_answer} from "./ask.mjs";
 import {size} from "./camera.mjs";
 import {add_plane, build_planes} from "./cut.mjs";
 import {by, el, named, notes, rove_by_key, say} from "./dom.mjs";
@@ -19,10 +19,10 @@ import {ended, hold, model, range, regions, selection, view} from "./state.mjs";
 import {build_tree, draw_tree, list_rows, tree_key} from "./tree.mjs";
 
 export async function load_model() {
-  const made = await attempt("model", () => ask_model(loop.deflate));
+  const made = await attempt("model", () => ask_model());
   if (!made || made.generation === model?.generation) return;
   const is_first = !model;
-  hold({model: made, regions: region_table(made.regions)});
+  hold({model: made, regions: region_table(made)});
   document.title = `${model.name} - csgrt`;
   by("name").replaceChildren(named(model.name));
   by("model").textContent = model.name;
@@ -41,7 +41,7 @@ export async function load_model() {
   hold({selection: selection.filter(path => range(path)[0] < range(path)[1])});
   build_tree();
   build_planes();
-  draw_selected();
+  ask_selected();
   draw_answer();
   draw_warnings();
   if (is_first) read_address();

@@ -21,9 +21,8 @@ export async function post(name, body, signal) {
 export const ask = async (name, body) => (await post(name, body)).json();
 /// The response whose body is what a body in zlib's format holds.
 export const decompressed = stream => new Response(stream.pipeThrough(new DecompressionStream("deflate")));
-/// The model. Its table of parts comes compressed on a slow link.
-export const ask_model = async is_slow =>
-  is_slow ? decompressed((await post("model", {encoding: "deflate"})).body).json() : ask("model", {});
+/// The model. Its table of parts comes compressed.
+export const ask_model = async () => decompressed((await post("model", {encoding: "deflate"})).body).json();
 /// Says in the bar what failed, but not what was cancelled. The bar says already that the server is gone.
 export function report(key, error) {
   if (error.name !== "AbortError" && !error.gone) say(key, error.message);

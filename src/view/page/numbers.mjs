@@ -22,15 +22,3 @@ export const from_hex = text => [1, 3, 5].map(i => parseInt(text.slice(i, i + 2)
 export const corners = ({low, high}) =>
   [0, 1, 2, 3, 4, 5, 6, 7].map(i => [0, 1, 2].map(k => (i >> k & 1 ? high : low)[k]));
 export const middle_of = ({low, high}) => low.map((v, i) => (v + high[i]) / 2);
-/// The box around the boxes of regions; null if no region is bounded.
-export function union_of(boxes) {
-  const low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity];
-  for (const box of boxes) {
-    if (!box.low) continue;
-    for (let i = 0; i < 3; i++) {
-      low[i] = Math.min(low[i], box.low[i]);
-      high[i] = Math.max(high[i], box.high[i]);
-    }
-  }
-  return low[0] <= high[0] ? {low, high} : null;
-}

@@ -8,7 +8,6 @@ import {cross_hair} from "./keys.mjs";
 import {along, corners, css, minus, unit} from "./numbers.mjs";
 import {bounds, color_of, model, path_of, selection, view} from "./state.mjs";
 
-const MOST_BOXES = 50;  // of selected parts
 export const overlay = by("overlay"), marks = {
   planes: svg("path", {stroke: "#62aee8", "stroke-opacity": 0.75, "stroke-dasharray": "5 4"}),
   box: svg("path", {stroke: "#ffd34d", "stroke-opacity": 0.8}),
@@ -47,8 +46,7 @@ export function draw_overlay() {
   if (!camera || !model) return;
   const cutting = by("cut").hidden ? [] : view.clip;
   marks.planes.setAttribute("d", screen_path(camera, cutting.flatMap(outline)));
-  const boxes = selection.length ? selected_boxes.slice(-MOST_BOXES) : [];
-  marks.box.setAttribute("d", screen_path(camera, boxes.flatMap(box_edges)));
+  marks.box.setAttribute("d", screen_path(camera, selected_boxes.flatMap(box_edges)));
   marks.measure.setAttribute("d", answer?.point && previous ? screen_path(camera, [[previous, answer.point]]) : "");
   marks.cross.setAttribute("d", at ? `M${x - 12} ${y}h9m6 0h9M${x} ${y - 12}v9m0 6v9` : "");
   marks.ray.replaceChildren(...ray_lines(camera));

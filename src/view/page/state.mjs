@@ -12,6 +12,6 @@ export function hold(names) {
 }
 /// The model's box; a metre where nothing is bounded.
 export const bounds = () => model.bounds ?? {low: [-500, -500, -500], high: [500, 500, 500]};
-export const path_of = id => model.regions[id]?.path ?? "?";
+export const path_of = id => model.paths[id] ?? "?";
 export const color_of = id => regions.colors[regions.rank[id]];
 export const range = path => range_of(regions.paths, path);

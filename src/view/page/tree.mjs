@@ -21,7 +21,7 @@ function children_of(node) {
     const path = end < 0 ? regions.paths[i] : regions.paths[i].slice(0, end);
     const is_alone = !regions.paths[i + 1]?.startsWith(path), high = is_alone ? i + 1 : Math.max(range(path)[1], i + 1);
     let first = Infinity;
-    for (let k = i; k < high; k++) first = Math.min(first, regions.sorted[k].id);
+    for (let k = i; k < high; k++) first = Math.min(first, regions.ids[k]);
     node.children.push(Object.assign(new_node(path, node.depth + 1, i, high, end < 0), {first}));
     i = high;
   }
