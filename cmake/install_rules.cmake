@@ -46,7 +46,7 @@ install(FILES scenes/csgrt.schema.json DESTINATION ${CMAKE_INSTALL_DATADIR}/csgr
 install(FILES README.md CHANGELOG.md CONTRIBUTING.md SECURITY.md LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
 foreach(folder docs docs/images scenes scenes/pictures bench bench/campaign bench/chart tests/stress
         tests/integration/truth)
-    file(GLOB pages CONFIGURE_DEPENDS ${folder}/*.md ${folder}/*.png ${folder}/*.ipynb)
+    file(GLOB pages CONFIGURE_DEPENDS ${folder}/*.md ${folder}/*.png ${folder}/*.webp ${folder}/*.ipynb)
     install(FILES ${pages} DESTINATION ${CMAKE_INSTALL_DOCDIR}/${folder})
 endforeach()
 install(DIRECTORY examples DESTINATION ${CMAKE_INSTALL_DOCDIR})

@@ -1,4 +1,7 @@
-"""Figures of the page of `csgrt view`: screenshots for the documents, and how quick it is."""
+"""Figures of the page of `csgrt view`: screenshots for the documents, and how quick it is.
+
+`cwebp -lossless -z 9` makes the files in docs/images of the screenshots.
+"""
 import math
 import os
 import statistics
