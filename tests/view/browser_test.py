@@ -343,10 +343,15 @@ class Browser(unittest.TestCase):
             page.mouse("mouseMoved", *page.js("const b = pane(); return [b.width / 2, b.height / 2]"), button="none",
                        on="slice-canvas")
             page.wait(lambda: "/all/" in page.text("hover"))
-        with task("share"):
+        with task("share and save"):
             click("#toggle-save")
             click("#copy-link")
             self.assertEqual(page.text("copy-link"), "Copied")
+            path = os.path.join(WORK, "boxes.png")
+            if os.path.exists(path):
+                os.remove(path)
+            click("#save-png")
+            page.wait(lambda: os.path.exists(path))
         with task("reload and undo"):
             looks = page.view()["looks"]
             page.start(page.text("link"))

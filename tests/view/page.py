@@ -53,6 +53,8 @@ def new_firefox(work):
     options.binary_location = FIREFOX
     for one in ("-headless", "--width=1024", "--height=1024"):
         options.add_argument(one)
+    options.set_preference("browser.download.folderList", 2)
+    options.set_preference("browser.download.dir", work)
     service = FirefoxService(GECKODRIVER, log_path=os.path.join(work, "geckodriver.log"))
     driver = webdriver.Firefox(options=options, service=service)
     driver.set_script_timeout(120)

@@ -97,6 +97,7 @@ test("looks of 100,000 parts beside each other take linear time", () => {
   assert.equal(table.states.filter(state => state === 0).length, 1);
   assert.equal(alone.length, 2);
   assert.deepEqual(looks.with_state_of_all(table, alone, "shown"), []);
+  assert.deepEqual(looks.with_looks(table, alone, paths, "state", "ghost"), [{path: "/", state: "ghost"}]);
   assert.deepEqual(looks.lost_paths(table, ["/part7.r", "/gone"]), ["/gone"]);
 });
 

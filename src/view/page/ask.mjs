@@ -17,7 +17,7 @@ import {draw_tree, reveal, state_word} from "./tree.mjs";
 export let answer = null, previous = null;  // the last answer, and the point that was clicked before
 /// The boxes of the selected parts that are bounded, and what the server told of all of them together.
 export let selected_boxes = [];
-let selected_row = null;
+let selected_row = null, selected_ranges = [];
 const MOST_BOXES = 50;
 /// Asks for the numbers of parts, which are lists of ranges of the table, and for the boxes around them, and uses the
 /// answer.
@@ -31,11 +31,13 @@ export async function ask_parts(key, parts, use) {
 }
 /// Asks for the selected parts, and draws them.
 export function ask_selected() {
-  const of = selection, [all, ...boxes] = [of.map(range), ...of.slice(-MOST_BOXES).map(path => [range(path)])];
+  const of = selection;
+  selected_ranges = of.map(range);
   selected_row = null;
   selected_boxes = [];
   draw_selected();
-  if (of.length) ask_parts("selected", [all, ...boxes], ([row, ...others]) => {
+  const asked = [selected_ranges, ...selected_ranges.slice(-MOST_BOXES).map(one => [one])];
+  if (of.length) ask_parts("selected", asked, ([row, ...others]) => {
     if (selection !== of) return;
     selected_row = row;
     selected_boxes = others.filter(other => other?.low);
@@ -63,7 +65,7 @@ export function draw_selected() {
   by("selected").hidden = selected === null;
   by("hint").hidden = selected !== null || answer !== null;
   if (selected === null) return;
-  const [low] = range(selected), ranges = selection.map(range), several = selection.length > 1;
+  const ranges = selected_ranges, [low] = ranges.at(-1), several = selection.length > 1;
   const count = ranges.reduce((sum, [low, high]) => sum + high - low, 0), row = selected_row;
   by("selected-swatch").style.background = css(regions.colors[low]);
   by("selected-path").textContent = several ? `${selection.length} parts` : selected;

@@ -43,10 +43,10 @@ function lower_bound(paths, path) {
 /// Which of the sorted paths a path means: all below it, or itself; "/" means all.
 export function range_of(paths, path) {
   if (path === "/") return [0, paths.length];
+  const at = lower_bound(paths, path), after = at + (paths[at] === path);
+  if (!paths[after]?.startsWith(path)) return [at, after];
   const low = lower_bound(paths, path + "/"), high = lower_bound(paths, path + "0");  // 0 comes after /
-  if (low < high) return [low, high];
-  const at = lower_bound(paths, path);
-  return [at, at + (paths[at] === path)];
+  return low < high ? [low, high] : [at, after];
 }
 /// Gives the table the states and colours that looks lead to.
 export function apply_looks(table, looks) {
@@ -74,9 +74,12 @@ function without(looks, paths, member) {
   });
 }
 /// The looks with a value for the member of several paths, where it changes anything. New looks replace those at their
-/// paths and below, so that the list stays short. The time is linear in the regions, looks and paths. The table gets
-/// the result.
-export function with_looks(table, looks, paths, member, value) {
+/// paths and below, and several that cover all regions mean "/", so that the list stays short. The time is linear in
+/// the regions, looks and paths. The table gets the result.
+export function with_looks(table, looks, given, member, value) {
+  const covered = new Uint8Array(table.paths.length);
+  for (const path of given) covered.fill(1, ...range_of(table.paths, path));
+  const paths = given.length > 1 && !covered.includes(0) ? ["/"] : given;
   const made = without(looks, new Set(paths), member), is_state = member === "state";
   apply_looks(table, made);
   const wanted = String(is_state ? STATES.indexOf(value) : value);
