@@ -134,6 +134,7 @@ void go(int chains, int steps) {
         Chain(static_cast<unsigned>(seed)).go(steps, local, whole, taken_out);
     }
     CAPTURE(local, whole, taken_out);
+    if (sanitized) return;  // too few chains to count
     CHECK(3 * local > whole);
     CHECK(whole > 0);
     CHECK(20 * taken_out > local);
