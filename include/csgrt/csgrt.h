@@ -803,6 +803,86 @@ typedef struct csgrt_verification {
 /// Fills the result, and returns CSGRT_OK if no ray is wrong and no bit differs, else CSGRT_ERROR_DIFFERS.
 CSGRT_API csgrt_status csgrt_verifier_result(const csgrt_verifier* verifier, csgrt_verification* result);
 
+// ---- Measures ----
+
+/// A row of a table of densities, as csgrt::Density.
+typedef struct csgrt_density {
+    int material_id;   ///< of the regions, if `path` is NULL or empty
+    const char* path;  ///< the path of a region, or its beginning up to a '/' for all regions below
+    double density;    ///< g/cm^3
+    const char* name;  ///< of the material; may be NULL
+} csgrt_density;
+
+/// csgrt::MeasureRequest
+typedef struct csgrt_measure_request {
+    size_t size;
+    /// Half of the interval of a volume, relative to the volume, that each region shall reach.
+    double rel_error;
+    /// Half of the interval of a volume, in mm^3, that is enough for each region in any case. 0: a billionth of the
+    /// relative error of the model's volume.
+    double abs_error;
+    /// Seconds after which no more rays are traced; the first rays, some 50,000, always are. 0: no limit.
+    double time;
+    /// Rays through the whole model to trace, in place of errors to reach. 0: the errors count.
+    uint64_t rays;
+    /// Seed of the random numbers.
+    uint64_t seed;
+    /// Densities of the regions; if empty, there are no masses.
+    const csgrt_density* densities;
+    size_t density_count;
+} csgrt_measure_request;
+
+/// A number, and half the width of its 95 % interval.
+typedef struct csgrt_estimate {
+    double value, half_width;
+} csgrt_estimate;
+
+enum {
+    CSGRT_MEASURED_ALL = 0,
+    CSGRT_MEASURED_ASSEMBLY = 1,
+    CSGRT_MEASURED_MATERIAL = 2,
+    CSGRT_MEASURED_REGION = 3,
+};
+
+/// csgrt::Measured: the figures of one region, or of several together.
+typedef struct csgrt_measured {
+    size_t size;
+    int kind;                                    ///< CSGRT_MEASURED_...
+    const char* name;                            ///< the path of a region or an assembly; the name of a material
+    int32_t id;                                  ///< of a region its index, of a material BRL-CAD's number; else -1
+    csgrt_estimate volume, claimed, area, mass;  ///< mm^3, mm^3, mm^2, kg
+    csgrt_estimate centroid[3];                  ///< mm
+    /// Moments xx, yy, zz and products xy, yz, zx about the world's origin and about the centroid: kg mm^2, without
+    /// densities mm^5.
+    csgrt_estimate origin[6], central[6];
+    csgrt_box box;                                 ///< millimetres; holds the regions
+    uint64_t regions, reached, unmet, weightless;  ///< numbers of regions
+    double unmet_bound;                            ///< mm^3: what unmet regions may have at most
+} csgrt_measured;
+
+/// The members of csgrt::Measurement besides its parts.
+typedef struct csgrt_measurement {
+    size_t size;
+    int has_densities, reached;
+    uint64_t rays;
+    double seconds;
+    size_t parts;  ///< number of parts, see csgrt_measurer_part()
+} csgrt_measurement;
+
+/// csgrt::Measurer: volumes, masses, areas and moments of a model's parts, each with a 95 % interval.
+typedef struct csgrt_measurer csgrt_measurer;
+CSGRT_API csgrt_status csgrt_measurer_create(const csgrt_model* model, const csgrt_settings* settings,
+                                             csgrt_measurer** measurer);
+CSGRT_API void csgrt_measurer_free(csgrt_measurer* measurer);
+/// Measures until the request is met. `request`: NULL for CSGRT_MEASURE_REQUEST.
+CSGRT_API csgrt_status csgrt_measurer_measure(csgrt_measurer* measurer, const csgrt_measure_request* request,
+                                              csgrt_measurement* result);
+/// A part of the last result: all together, then assemblies, materials, regions. Its name is valid until the next call
+/// of csgrt_measurer_measure().
+CSGRT_API csgrt_status csgrt_measurer_part(const csgrt_measurer* measurer, size_t index, csgrt_measured* part);
+/// Reads a table of densities (csgrt::load_densities()), which counts for requests without densities.
+CSGRT_API csgrt_status csgrt_measurer_load_densities(csgrt_measurer* measurer, const char* path);
+
 // ---- Defaults ----
 
 // The defaults are macros for C and C++, and functions for other languages: each function puts the defaults into a
@@ -827,6 +907,9 @@ CSGRT_API void csgrt_view_init(csgrt_view* view);
 CSGRT_API void csgrt_image_info_init(csgrt_image_info* image_info);
 CSGRT_API void csgrt_pick_init(csgrt_pick* pick);
 CSGRT_API void csgrt_verification_init(csgrt_verification* verification);
+CSGRT_API void csgrt_measure_request_init(csgrt_measure_request* measure_request);
+CSGRT_API void csgrt_measured_init(csgrt_measured* measured);
+CSGRT_API void csgrt_measurement_init(csgrt_measurement* measurement);
 
 // clang-format off
 #define CSGRT_DIAGNOSTIC {sizeof(csgrt_diagnostic), "", "", "", "", "", 0, 0, -1, 1, 0}
@@ -855,6 +938,11 @@ CSGRT_API void csgrt_verification_init(csgrt_verification* verification);
 #define CSGRT_IMAGE_INFO {sizeof(csgrt_image_info), 0, 0, 0, 0}
 #define CSGRT_PICK {sizeof(csgrt_pick), -1, -1, 0, {0, 0, 0}, {0, 0, 0}, {{0, 0, 0}, {0, 0, 0}}}
 #define CSGRT_VERIFICATION {sizeof(csgrt_verification), "", 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, {{0, 0, 0}, {0, 0, 0}}}
+#define CSGRT_MEASURE_REQUEST {sizeof(csgrt_measure_request), 0.01, 0, 0, 0, 1, NULL, 0}
+#define CSGRT_MEASURED {sizeof(csgrt_measured), 0, "", -1, {0, 0}, {0, 0}, {0, 0}, {0, 0}, \
+    {{0, 0}, {0, 0}, {0, 0}}, {{0, 0}, {0, 0}, {0, 0}, {0, 0}, {0, 0}, {0, 0}}, \
+    {{0, 0}, {0, 0}, {0, 0}, {0, 0}, {0, 0}, {0, 0}}, {{0, 0, 0}, {0, 0, 0}}, 0, 0, 0, 0, 0}
+#define CSGRT_MEASUREMENT {sizeof(csgrt_measurement), 0, 0, 0, 0, 0}
 // clang-format on
 
 #ifdef __cplusplus

@@ -29,6 +29,7 @@
 #include <csgrt/error.hpp>
 #include <csgrt/framebuffer.hpp>
 #include <csgrt/image.hpp>
+#include <csgrt/measure.hpp>
 #include <csgrt/method.hpp>
 #include <csgrt/model.hpp>
 #include <csgrt/partitions.hpp>

@@ -12,6 +12,7 @@
 
 #include "c/call.hpp"
 #include "form/answers.hpp"
+#include "form/measure.hpp"
 #include "form/requests.hpp"
 
 namespace csgrt::c {
@@ -73,6 +74,10 @@ void read_member(CMembers<const std::byte>& members, const Member& member, Value
         const auto first = members.next<const csgrt_plane*>();
         for (const csgrt_plane& plane : needed(first, members.next<std::size_t>(), name.c_str()))
             value.push_back({of(plane.normal), plane.distance});
+    } else if constexpr (std::is_same_v<Value, std::vector<Density>>) {
+        const auto first = members.next<const csgrt_density*>();
+        for (const csgrt_density& row : needed(first, members.next<std::size_t>(), name.c_str()))
+            value.push_back({row.material_id, text_or_empty(row.path), row.density, text_or_empty(row.name)});
     } else if constexpr (std::is_same_v<Value, Camera>) {
         if (const auto camera = members.next<const csgrt_camera*>()) value = camera_of(camera);
     } else if constexpr (std::is_same_v<Value, std::optional<PixelRectangle>>) {

@@ -10,6 +10,7 @@
 #include "help_notes.hpp"
 #include "options.hpp"
 #include "values.hpp"
+#include "form/measure.hpp"
 
 namespace csgrt::cli {
 
@@ -199,6 +200,21 @@ void define(Options& options, VerifyArguments& arguments) {
     define_settings(options, arguments.settings);
 }
 
+void define(Options& options, MeasureArguments& arguments) {
+    define_scene(options, arguments);
+    define_members(options, arguments.request, form::Concern::work);
+    options.text("--densities", "FILE",
+                 "densities of materials: on each line a number of a material or a path, g/cm^3, a name; those of the "
+                 "scene (BRL-CAD's _DENSITIES) if not given",
+                 arguments.densities);
+    options.count("--depth", "levels of the tree in the table; 2 if not given", arguments.depth, 0, Limits::nesting);
+    options.text("--json", "FILE", "write all figures as JSON; - is standard output, instead of the table",
+                 arguments.json);
+    options.text("--csv", "FILE", "write all figures as CSV, a line for each part; - is standard output, likewise",
+                 arguments.csv);
+    define_either(options, arguments.settings);
+}
+
 void define(Options& options, CompareArguments& arguments) {
     options.argument("A", "EXR picture, or partitions that 'csgrt shoot' wrote", arguments.first);
     options.argument("B", "another file of the same kind", arguments.second);
@@ -268,6 +284,8 @@ constexpr Entry entries[] = {
                            sample_notes),
     entry<VerifyArguments>("verify", "csgrt verify SCENE [OBJECT...]", "judge a scene's answers by 113-bit ones",
                            verify_notes),
+    entry<MeasureArguments>("measure", "csgrt measure SCENE [OBJECT...]",
+                            "volumes, masses, areas, moments, with errors", measure_notes),
     entry<CompareArguments>("compare", "csgrt compare A B", "compare two pictures, or two files of partitions",
                             compare_notes),
     entry<DevicesArguments>("devices", "csgrt devices", "list the devices", devices_notes),

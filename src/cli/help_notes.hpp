@@ -95,6 +95,20 @@ the last place. The exit status is 8 if any ray that rounding does not decide ha
 if device and reference differ in any bit.
 )";
 
+inline constexpr const char* measure_notes = R"(
+Each figure has an interval that holds the true one in 95 of 100 measures; +- is half of it. The
+table has what all regions have together, then the tree, then materials. --json and --csv have all
+parts, and of each: volume, which regions own (an overlap counts for the first of them) and claim
+(it counts for each), area (a face between two regions counts for each), mass, centroid, moments
+(xx is the integral of y^2 + z^2) and products of inertia (xy that of x y), about the world's origin
+and the centroid, and a box that holds the part. Units: mm, mm^2, mm^3, kg and kg mm^2; without
+densities centroid and moments are those of volume, in mm^5. With densities they are those of mass,
+density x volume x los / 100, and regions without one count as weightless and are named.
+
+The same seed gives the same figures on every device and any number of threads, unless --time or
+Ctrl-C ends the measure. Ctrl-C prints what there is; the exit status is 130 then.
+)";
+
 inline constexpr const char* compare_notes = R"(
 X is in the units of the channel or column: mm for Z, lengths of the direction for in and out, 0 to
 1 for colours, 1 for counts and numbers of regions. The exit status is 0 if nothing differs, 8 if

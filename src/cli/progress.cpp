@@ -49,10 +49,16 @@ Progress::~Progress() {
 void Progress::stage(std::string name) {
     std::lock_guard lock(mutex_);
     name_ = std::move(name);
+    note_.clear();
     range_begin_ = 0;
     range_end_ = 1;
     fraction_ = -1;
     start_ = Clock::now();
+}
+
+void Progress::note(std::string text) {
+    std::lock_guard lock(mutex_);
+    note_ = std::move(text);
 }
 
 void Progress::range(double begin, double end) {
@@ -83,7 +89,7 @@ void Progress::redraw_until_done() try {
 
 std::string Progress::line(Clock::time_point now) const {
     double elapsed = std::chrono::duration<double>(now - start_).count();
-    if (fraction_ < 0) return name_ + "  " + clock_text(elapsed);
+    if (fraction_ < 0) return name_ + "  " + clock_text(elapsed) + (note_.empty() ? "" : "  " + note_);
     std::string text = name_ + "  " + std::to_string(static_cast<int>(fraction_ * 100)) + " %";
     if (fraction_ > 0) text += "  " + clock_text(elapsed * (1 - fraction_) / fraction_) + " left";
     return text;

@@ -23,6 +23,8 @@ public:
 
     /// Begins a stage, e.g. "rendering"; its fraction is unknown until the first update. Safe from any thread.
     void stage(std::string name);
+    /// Sets a text behind the stage's name, which tells how far it is. Safe from any thread.
+    void note(std::string text);
     /// Sets the part of the stage that the next updates cover: fractions `begin` to `end`. A new stage has 0 to 1.
     void range(double begin, double end);
     /// Sets the done fraction of the range, 0..1. Safe from any thread.
@@ -36,7 +38,7 @@ private:
 
     std::mutex mutex_;
     std::condition_variable wake_;
-    std::string name_;
+    std::string name_, note_;
     double range_begin_ = 0, range_end_ = 1;
     double fraction_ = -1;  ///< negative: unknown
     Clock::time_point start_ = Clock::now();

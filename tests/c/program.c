@@ -1,4 +1,4 @@
-/* csgrt.h in C99 alone: builds a part, asks for what is along a ray, draws it, edits it and verifies it. */
+/* csgrt.h in C99 alone: builds a part, asks for what is along a ray, draws it, edits it, verifies it and weighs it. */
 #include <csgrt/csgrt.h>
 
 #include <stdio.h>
@@ -25,6 +25,7 @@ int main(void) {
     csgrt_image* image = NULL;
     csgrt_edit* edit = NULL;
     csgrt_verifier* verifier = NULL;
+    csgrt_measurer* measurer = NULL;
 
     /* A box with a bore. */
     EXPECT(csgrt_scene_create(&scene) == CSGRT_OK);
@@ -99,6 +100,30 @@ int main(void) {
         EXPECT(result.rays == 100 && result.hits > 0);
     }
 
+    /* The plate weighs what its volume of steel does, of which the model's table tells nothing. */
+    {
+        const csgrt_density steel = {1, NULL, 7.85, "steel"};
+        csgrt_measure_request request = CSGRT_MEASURE_REQUEST;
+        csgrt_measurement result = CSGRT_MEASUREMENT;
+        csgrt_measured part = CSGRT_MEASURED;
+        const double volume = 20 * 20 * 5 - 3.14159265358979 * 3 * 3 * 5;
+        request.rel_error = 1e-3;
+        request.densities = &steel;
+        request.density_count = 1;
+        EXPECT(csgrt_measurer_create(model, NULL, &measurer) == CSGRT_OK);
+        EXPECT(csgrt_measurer_measure(measurer, &request, &result) == CSGRT_OK);
+        EXPECT(result.reached && result.has_densities && result.parts == 3);
+        EXPECT(csgrt_measurer_part(measurer, 2, &part) == CSGRT_OK);
+        EXPECT(part.kind == CSGRT_MEASURED_REGION && strcmp(part.name, "/plate") == 0 && part.id == 0);
+        EXPECT(part.volume.half_width > 0 && part.volume.half_width < 1e-3 * volume);
+        EXPECT(part.volume.value > 0.998 * volume && part.volume.value < 1.002 * volume);
+        EXPECT(part.mass.value > 0.998 * 7.85e-6 * volume && part.mass.value < 1.002 * 7.85e-6 * volume);
+        EXPECT(csgrt_measurer_part(measurer, 3, &part) == CSGRT_ERROR_USAGE);
+        request.rel_error = 0;
+        EXPECT(csgrt_measurer_measure(measurer, &request, &result) == CSGRT_ERROR_USAGE);
+    }
+
+    csgrt_measurer_free(measurer);
     csgrt_verifier_free(verifier);
     csgrt_edit_free(edit);
     csgrt_image_free(image);

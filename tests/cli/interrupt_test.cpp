@@ -115,6 +115,17 @@ TEST_CASE("no picture is written to a terminal") {
 }
 #endif
 
+TEST_CASE("a measure shows how its intervals shrink, and Ctrl-C prints what it has", "[promise:measure]") {
+    NEEDS_COMMAND();
+    const Folder folder;
+    const std::string scene = folder.write("balls.asc", two_balls);
+    const Screen screen = run_on_terminal({"measure", scene, "all.g", "--rel-error", "1e-9"}, "whole +- ");
+    CAPTURE(screen.text);
+    CHECK(screen.status == 130);
+    CHECK(contains(screen.text, "0 of 2 regions within 1e-07 %"));
+    CHECK(contains(screen.text, "volume "));
+}
+
 TEST_CASE("SIGINT, SIGTERM and SIGHUP end a render, a wait for rays and a verification with 130, and leave no file",
           "[promise:interrupts]") {
     NEEDS_COMMAND();

@@ -69,6 +69,10 @@ TEST_CASE("a wrong command line is refused with what is wrong") {
         {{"verify", scene, "--rays", "0"}, "--rays: '0' is not a number of rays from 1 to 10000000, or a file"},
         {{"verify", scene, "--rays", "10000001"}, "--rays: '10000001' is not a number"},
         {{"verify", scene, "--seed", "-1"}, "--seed: '-1'"},
+        {{"measure"}, "SCENE: missing"},
+        {{"measure", scene, "--rel-error", "0"}, "--rel-error: '0' is not a number greater than 0"},
+        {{"measure", scene, "--time", "-1"}, "--time: '-1' is not a number of seconds, 0 or more"},
+        {{"measure", scene, "--rays", "0"}, "--rays: '0' is not a whole number from 1"},
         {{"verify", scene, "--precision", "quad"}, "--precision: 'quad' is not one of"},
         {{"compare", scene}, "B: missing"},
         {{"info", scene, "--depth", "many"}, "--depth: 'many'"},
@@ -191,6 +195,31 @@ TEST_CASE("help lists every option, and every option listed is understood") {
          {"--rays N|FILE", "--seed N", "--json FILE", "--device NAME|cpu|gpu|N", "--reference", "--max-memory SIZE",
           "--tolerance MM|surfaces|relative|none", "--precision double|single", "--device-timeout S", "--air",
           "--strict", "--allow-files FOLDER", "--max-instances N", "--skip-unsupported", "--threads N", "-h, --help"}},
+        {"measure",
+         {"--rel-error X",
+          "--abs-error MM3",
+          "--time S",
+          "--rays N",
+          "--seed N",
+          "--densities FILE",
+          "--depth N",
+          "--json FILE",
+          "--csv FILE",
+          "--device NAME|cpu|gpu|N",
+          "--reference",
+          "--max-memory SIZE",
+          "--tolerance MM|surfaces|relative|none",
+          "--precision double|single",
+          "--wait-for-device",
+          "--device-timeout S",
+          "--check N",
+          "--air",
+          "--strict",
+          "--allow-files FOLDER",
+          "--max-instances N",
+          "--skip-unsupported",
+          "--threads N",
+          "-h, --help"}},
         {"compare", {"--tolerance X", "-h, --help"}},
         {"devices", {"-h, --help"}},
         {"info",
@@ -229,7 +258,7 @@ TEST_CASE("the name of the command render may be left out") {
     CHECK(run({"-h"}).out == all.out);
     CHECK(run({"help"}).out == all.out);
     for (const char* command :
-         {"render", "view", "shoot", "sample", "verify", "compare", "devices", "info", "convert", "help"}) {
+         {"render", "view", "shoot", "sample", "verify", "measure", "compare", "devices", "info", "convert", "help"}) {
         CAPTURE(command);
         CHECK(contains(all.out, std::string(command) + (command == std::string("render") ? "] " : " ")));
     }

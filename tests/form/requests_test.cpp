@@ -77,6 +77,8 @@ std::string c_members(const std::string& name) {
         return "const char* const* " + name + ";\n    size_t " + name.substr(0, name.size() - 1) + "_count;";
     else if constexpr (std::is_same_v<Value, std::vector<Plane>>)
         return "const csgrt_plane* " + name + ";\n    size_t " + name + "_count;";
+    else if constexpr (std::is_same_v<Value, std::vector<Density>>)
+        return "const csgrt_density* " + name + ";\n    size_t density_count;";
     else if constexpr (std::is_same_v<Value, Camera>)
         return "const csgrt_camera* " + name + ";  ///< NULL: CSGRT_CAMERA";
     else if constexpr (std::is_same_v<Value, std::optional<PixelRectangle>>)
@@ -202,6 +204,7 @@ std::vector<std::string> made_of_header() {
             c_struct<Statistics>(),
             c_struct<PixelRectangle>(false),
             c_struct<View>(),
+            c_struct<MeasureRequest>(),
             c_defaults<Settings>(),
             c_defaults<DeviceInfo>(),
             c_defaults<LoadOptions>(),
@@ -210,7 +213,8 @@ std::vector<std::string> made_of_header() {
             c_defaults<SolidInfo>(),
             c_defaults<ChildInfo>(),
             c_defaults<Statistics>(),
-            c_defaults<View>()};
+            c_defaults<View>(),
+            c_defaults<MeasureRequest>()};
 }
 
 /// Replaces what begins as `made` does: up to its last line, or of a macro to the end of its lines.
@@ -290,11 +294,12 @@ std::string settings_page() {
            list<Settings>("csgrt::Settings") + list<LoadOptions>("csgrt::LoadOptions") + list<View>("csgrt::View") +
            list<Camera>("csgrt::Camera") + list<Fields>("csgrt::Fields") + list<RayRange>("csgrt::RayRange") +
            list<Slice>("csgrt::Slice") + list<RegionInfo>("csgrt::RegionInfo") + list<SolidInfo>("csgrt::SolidInfo") +
-           list<ChildInfo>("csgrt::ChildInfo") + list<DeviceInfo>("csgrt::DeviceInfo") +
-           list<Statistics>("csgrt::Statistics") + "## Names and their numbers\n\n" +
-           names_line("Precision", every_precision) + names_line("Tolerance", every_tolerance) +
-           names_line("Light", lighting_names) + names_line("State", state_names) +
-           names_line("Fastgen", fastgen_names) + names_line("Operator", operator_names) +
+           list<ChildInfo>("csgrt::ChildInfo") + list<MeasureRequest>("csgrt::MeasureRequest") +
+           list<DeviceInfo>("csgrt::DeviceInfo") + list<Statistics>("csgrt::Statistics") +
+           "## Names and their numbers\n\n" + names_line("Precision", every_precision) +
+           names_line("Tolerance", every_tolerance) + names_line("Light", lighting_names) +
+           names_line("State", state_names) + names_line("Fastgen", fastgen_names) +
+           names_line("Operator", operator_names) +
            names_line("Channels, whose sum is what a picture has", channel_names) +
            names_line("Status, which is the command's, too", status_names);
 }
@@ -378,7 +383,9 @@ void require_same_members(const S& a, const S& b) {
     form::for_members(form::of<S>, [&](const auto& member) {
         INFO(member.key.member);
         using Value = std::remove_cvref_t<decltype(a.*member.at)>;
-        if constexpr (std::is_same_v<Value, std::vector<Plane>>) {
+        if constexpr (std::is_same_v<Value, std::vector<Density>>) {
+            REQUIRE((a.*member.at).size() == (b.*member.at).size());
+        } else if constexpr (std::is_same_v<Value, std::vector<Plane>>) {
             REQUIRE((a.*member.at).size() == (b.*member.at).size());
             for (std::size_t i = 0; i < (a.*member.at).size(); ++i)
                 REQUIRE(((a.*member.at)[i].normal == (b.*member.at)[i].normal &&
@@ -431,6 +438,7 @@ TEST_CASE("each sentence stands in the C++ header") {
     require_sentences<ChildInfo>("include/csgrt/model.hpp");
     require_sentences<DeviceInfo>("include/csgrt/device.hpp");
     require_sentences<Statistics>("include/csgrt/statistics.hpp");
+    require_sentences<MeasureRequest>("include/csgrt/measure.hpp");
 }
 
 TEST_CASE("C's structs and docs/settings.md are made of the descriptions") {
@@ -460,6 +468,9 @@ TEST_CASE("C's functions for defaults give those of C++") {
     csgrt_view view;
     csgrt_view_init(&view);
     require_same_members(c::view_of(&view), View{});
+    csgrt_measure_request request;
+    csgrt_measure_request_init(&request);
+    require_same_members(c::described<MeasureRequest>(request, "request"), MeasureRequest{});
     csgrt_camera camera;
     csgrt_camera_init(&camera);
     require_same_members(c::camera_of(&camera), Camera{});

@@ -9,6 +9,7 @@
 #include <variant>
 #include <vector>
 
+#include <csgrt/measure.hpp>
 #include <csgrt/renderer.hpp>
 #include <csgrt/scene_io.hpp>
 
@@ -68,6 +69,13 @@ struct VerifyArguments : SceneArguments {
     std::string json;  ///< file, "-" or empty
 };
 
+struct MeasureArguments : SceneArguments {
+    MeasureRequest request;
+    std::string densities;  ///< file or empty
+    int depth = 2;
+    std::string json, csv;  ///< file, "-" or empty
+};
+
 struct CompareArguments {
     std::string first, second;
     std::optional<double> tolerance;  ///< absent: files are compared bit by bit
@@ -90,8 +98,9 @@ struct TextArguments {
     std::string text;
 };
 
-using Command = std::variant<RenderArguments, ViewArguments, ShootArguments, SampleArguments, VerifyArguments,
-                             CompareArguments, DevicesArguments, InfoArguments, ConvertArguments, TextArguments>;
+using Command =
+    std::variant<RenderArguments, ViewArguments, ShootArguments, SampleArguments, VerifyArguments, MeasureArguments,
+                 CompareArguments, DevicesArguments, InfoArguments, ConvertArguments, TextArguments>;
 
 // Each returns Status::ok; `compare` and `verify` may also return Status::differs. Every other failure is an Error.
 Status run(const RenderArguments& arguments);
@@ -99,6 +108,7 @@ Status run(const ViewArguments& arguments);
 Status run(const ShootArguments& arguments);
 Status run(const SampleArguments& arguments);
 Status run(const VerifyArguments& arguments);
+Status run(const MeasureArguments& arguments);
 Status run(const CompareArguments& arguments);
 Status run(const DevicesArguments& arguments);
 Status run(const InfoArguments& arguments);

@@ -1,0 +1,121 @@
+// Measure: volumes, masses, areas, centroids and moments of a model's parts, each with a 95 % interval.
+//
+//     csgrt::Measurer measurer(csgrt::Model(scene));
+//     csgrt::Measurement result = measurer.measure({.rel_error = 1e-3});
+//     for (const csgrt::Measured& m : result.parts)
+//         std::printf("%s %g +- %g mm^3\n", m.name.c_str(), m.volume.value, m.volume.half_width);
+//
+// Rays are traced in replicates. A replicate has a frame of three perpendicular directions, turned at random, and along
+// each direction a square grid of rays, shifted at random. The lengths of a ray inside a region sum to its volume, and
+// |n . d| at its boundaries, summed over the three directions d, to its area. Each replicate alone is an estimate
+// without bias, so the spread of the replicates tells the error of their mean. Random numbers are functions of the seed
+// and sums have a fixed order: all devices and numbers of threads give the same bits.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <csgrt/model.hpp>
+#include <csgrt/renderer.hpp>
+#include <csgrt/settings.hpp>
+
+namespace csgrt {
+
+/// A row of a table of densities: regions of one material, or at one path, have the density. If two rows concern one
+/// region, the later one counts.
+struct Density {
+    int material_id = 0;    ///< BRL-CAD's number of the material, if there is no path
+    std::string path = {};  ///< a RegionInfo::path, or its beginning up to a '/' for all regions below; "/": all
+    double density = 0;     ///< g/cm^3
+    std::string name = {};  ///< of the material
+};
+
+/// Reads a table of densities as gqa and rtweight of BRL-CAD do: on each line the number of a material, a density in
+/// g/cm^3 and a name; # begins a comment. In place of the number may stand the path of a region, or its beginning. Of a
+/// BRL-CAD database the table is the object _DENSITIES, if it has one; of a .json it is empty. Wrong lines are left out
+/// and appended to `warnings`, or, if this is null, throw Error (scene). Throws Error (file). Any thread.
+CSGRT_API std::vector<Density> load_densities(const std::string& path, std::vector<Warning>* warnings = nullptr);
+
+/// What a measure shall reach, and at what cost.
+struct MeasureRequest {
+    /// Half of the interval of a volume, relative to the volume, that each region shall reach.
+    double rel_error = 0.01;
+    /// Half of the interval of a volume, in mm^3, that is enough for each region in any case. 0: a billionth of the
+    /// relative error of the model's volume.
+    double abs_error = 0;
+    /// Seconds after which no more rays are traced; the first rays, some 50,000, always are. 0: no limit.
+    double time = 0;
+    /// Rays through the whole model to trace, in place of errors to reach. 0: the errors count.
+    std::uint64_t rays = 0;
+    /// Seed of the random numbers.
+    std::uint64_t seed = 1;
+    std::vector<Density> densities = {};  ///< Densities of the regions; if empty, there are no masses.
+};
+
+/// A number, and half the width of its 95 % interval.
+struct Estimate {
+    double value = 0, half_width = 0;
+};
+
+enum class MeasuredKind : std::uint8_t { all, assembly, material, region };
+
+/// The figures of one region, or of several together. Regions own what they overlap with others as in Partitions; a
+/// face between two regions counts for each. If the request has densities, centroid and moments are those of mass, and
+/// a region without a density counts as weightless; else they are those of volume.
+struct Measured {
+    MeasuredKind kind = MeasuredKind::region;
+    std::string name = {};  ///< the path of a region or an assembly; the name of a material
+    std::int32_t id = -1;   ///< of a region its index in Model::regions(), of a material BRL-CAD's number; else -1
+    Estimate volume = {};   ///< mm³, of what the regions own
+    Estimate claimed = {};  ///< mm³, of what the regions claim: an overlap counts for each claimant
+    Estimate area = {};     ///< mm²
+    Estimate mass = {};     ///< kg; 0 without densities
+    std::array<Estimate, 3> centroid = {};  ///< x, y, z, mm
+    std::array<Estimate, 6> origin = {};    ///< moments xx, yy, zz and products xy, yz, zx of inertia about the
+                                            ///< world's origin: the integrals of y² + z², ..., and of x y, ...;
+                                            ///< kg mm², without densities mm⁵
+    std::array<Estimate, 6> central = {};   ///< the same about the centroid
+    Box box = {};                           ///< Millimetres; holds the regions, and need not be tight.
+    std::uint64_t regions = 0;              ///< number of regions
+    std::uint64_t reached = 0;              ///< number of regions that have reached the request's error
+    std::uint64_t unmet = 0;                ///< number of regions that no ray has met
+    std::uint64_t weightless = 0;           ///< number of regions without a density
+    double unmet_bound = 0;                 ///< mm³: what the unmet regions may have at most (95 %)
+};
+
+/// What a measure has found.
+struct Measurement {
+    std::vector<Measured> parts = {};  ///< all together, assemblies, materials, regions, in the model's order
+    bool has_densities = false;
+    bool reached = false;    ///< whether each region has reached the request's error, or all rays were traced
+    std::uint64_t rays = 0;  ///< traced in all
+    double seconds = 0;      ///< time that the call took
+};
+
+/// Measures a model. Not copyable. One thread at a time.
+class CSGRT_API Measurer {
+public:
+    /// Throws as Renderer does, and Error (usage) for a model with a region that has no end.
+    explicit Measurer(Model model, const Settings& settings = {});
+    ~Measurer();
+    Measurer(Measurer&&) noexcept;
+    Measurer& operator=(Measurer&&) noexcept;
+
+    /// Measures until the request is met. Calls look(measurement so far) after each round of rays, whose `parts` has
+    /// only all together; if it returns false, or Settings::progress ends a call, the measure ends with what it has.
+    /// Throws Error: usage, out_of_memory, device_fault; interrupted, if it ends before the first rays are traced.
+    Measurement measure(const MeasureRequest& request = {}, const std::function<bool(const Measurement&)>& look = {});
+
+    /// The Renderer that traces, for its model, statistics and warnings. Valid as long as the Measurer.
+    const Renderer& renderer() const;
+
+private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace csgrt

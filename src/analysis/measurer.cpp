@@ -1,0 +1,516 @@
+// Measures in rounds. The first round's rays go through the whole model. Then regions whose error is too large get rays
+// of their own boxes, or all get more rays through the whole model, whichever is fewer rays.
+#include <csgrt/measure.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <map>
+#include <unordered_map>
+
+#include "analysis/estimates.hpp"
+#include "analysis/frame.hpp"
+#include "base/floating_point.hpp"
+#include "base/parallel.hpp"
+
+namespace csgrt {
+
+using namespace analysis;
+
+namespace {
+
+constexpr double first_rays = 1024;     ///< of a grid through the whole model, in the first round
+constexpr double first_own_rays = 200;  ///< of a grid through a region's box, in its first round
+constexpr double most_own_rays = 0x1p24;
+constexpr std::uint32_t most_replicates = 4096;
+constexpr std::uint32_t grids = 3;         ///< of a replicate
+constexpr double enough_rows = 64;         ///< fewer intervals may look more alike than they are
+constexpr std::size_t piece = 2048;        ///< rays that one thread sums in a row
+constexpr std::size_t at_once = 1u << 17;  ///< rays that are traced at once
+constexpr auto between_looks = std::chrono::milliseconds(200);
+constexpr std::int32_t everything = -1;
+
+using Clock = std::chrono::steady_clock;
+
+/// Replicates through the box of a region, or of everything.
+struct Job {
+    std::int32_t region = everything;
+    double rays = 0;                                           ///< of a grid
+    std::uint32_t level = 0, first = 0, last = least_batches;  ///< numbers of the replicates
+    std::vector<Sums> sums = {};  ///< of each replicate; of everything, of each region and replicate
+
+    double cost() const { return rays * grids * (last - first); }
+};
+
+/// Rays of one grid, which are summed in a row.
+struct Piece {
+    Job* job = nullptr;
+    std::uint32_t replicate = 0;
+    std::size_t grid = 0;
+    std::uint64_t first = 0, count = 0;
+    bool ends_job = false;
+};
+
+struct Region {
+    Box box = {};
+    Vec3 middle = {};
+    double surface = 0;  ///< mm²: of the box; its shadows have a quarter of it, on average
+    bool is_empty = false;
+    double own_rays = 0;
+    std::uint32_t replicates = 0, levels = 0;  ///< of rays of its own
+    std::vector<Sums> own = {};                ///< batches
+    double weight = 1;
+    bool has_density = false;
+};
+
+constexpr double kg_per_mm3 = 1e-6;  ///< of 1 g/cm³
+
+/// Whether a row of a table is about a region.
+bool concerns(const Density& row, const RegionInfo& region) {
+    if (row.path.empty()) return row.material_id == region.material_id;
+    if (row.path == "/" || row.path == region.path) return true;
+    return region.path.starts_with(row.path) && (row.path.ends_with('/') || region.path[row.path.size()] == '/');
+}
+
+void check(const MeasureRequest& request) {
+    const auto refuse = [](const std::string& text) { throw Error(Status::usage, text); };
+    if (!(request.rel_error > 0)) refuse("the relative error of a measure must be greater than 0");
+    if (!(request.abs_error >= 0)) refuse("the absolute error of a measure must be 0 or more");
+    if (!(request.time >= 0)) refuse("the time of a measure must be 0 or more");
+    if (request.rays > 1'000'000'000'000) refuse("a measure traces 1,000,000,000,000 rays at most");
+    for (const Density& row : request.densities)
+        if (!(row.density >= 0 && std::isfinite(row.density)))
+            refuse("the density of " + (row.path.empty() ? "material " + std::to_string(row.material_id) : row.path) +
+                   " must be 0 or more, in g/cm^3");
+}
+
+double surface_of(const Box& box) {
+    const Vec3 side = box.high - box.low;
+    return 2 * (side.x * side.y + side.y * side.z + side.z * side.x);
+}
+bool is_empty(const Box& box) {
+    return !(box.low.x <= box.high.x && box.low.y <= box.high.y && box.low.z <= box.high.z);
+}
+Box joined(const Box& a, const Box& b) {
+    if (is_empty(a)) return b;
+    if (is_empty(b)) return a;
+    return {{std::min(a.low.x, b.low.x), std::min(a.low.y, b.low.y), std::min(a.low.z, b.low.z)},
+            {std::max(a.high.x, b.high.x), std::max(a.high.y, b.high.y), std::max(a.high.z, b.high.z)}};
+}
+
+}  // namespace
+
+struct Measurer::Impl {
+    Impl(Model m, const Settings& settings) : renderer(m, settings), model(std::move(m)), threads(settings.threads) {
+        for (const RegionInfo& info : model.regions()) {
+            Region region{.box = info.bounds, .is_empty = is_empty(info.bounds)};
+            if (!region.is_empty) {
+                region.middle = center_of(region.box);
+                region.surface = surface_of(region.box);
+                if (!std::isfinite(region.surface))
+                    throw Error(Status::usage, {Diagnostic{{},
+                                                           info.path + " has no end, so it has no volume",
+                                                           "name the objects to measure, without it",
+                                                           {}}});
+                box = joined(box, region.box);
+            }
+            regions.push_back(std::move(region));
+        }
+    }
+
+    Renderer renderer;
+    Model model;
+    unsigned threads;
+    Box box = {{1, 1, 1}, {-1, -1, -1}};
+    std::vector<Region> regions;
+
+    MeasureRequest request;
+    double global_rays = 0;    ///< of a grid
+    std::vector<Sums> global;  ///< of each region and replicate
+    std::uint32_t global_levels = 0;
+    std::uint64_t traced = 0;
+    Clock::time_point start, looked;
+    bool is_cut = false;
+    Partitions rows;
+
+    double seconds() const { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+    Source source_of(std::size_t r) const {
+        const Region& region = regions[r];
+        Source source{.rays = global_rays,
+                      .replicates = least_batches,
+                      .batches = {global.data() + r * least_batches, global.empty() ? 0 : least_batches},
+                      .middle = region.middle,
+                      .weight = region.weight};
+        if (region.replicates > 0) {
+            source.rays = region.own_rays;
+            source.replicates = region.replicates;
+            source.batches = region.own;
+        }
+        return source;
+    }
+
+    double aim(double volume, double floor) const { return std::max(request.rel_error * volume, floor); }
+    double floor_of_aims() const {
+        if (request.abs_error > 0) return request.abs_error;
+        double whole = 0;
+        for (std::size_t r = 0; r < regions.size(); ++r) whole += volume_of(source_of(r)).volume.value;
+        return 1e-9 * request.rel_error * whole;
+    }
+    bool has_reached(std::size_t r, const VolumeSoFar& so_far, double floor) const {
+        if (regions[r].is_empty) return true;
+        if (so_far.rows == 0) return false;
+        return so_far.rows >= enough_rows && so_far.volume.half_width <= aim(so_far.volume.value, floor);
+    }
+    /// The volume that a region that no ray has met may have. If a ray is as likely to meet it as its shadow is large,
+    /// three rays would have met it if its shadow were three times what a ray stands for, and none meets it with a
+    /// probability of 5 %. No ray is longer inside it than the diagonal of its box.
+    double unmet_bound(std::size_t r) const {
+        const Region& region = regions[r];
+        if (region.is_empty) return 0;
+        const Source source = source_of(r);
+        const Vec3 side = region.box.high - region.box.low;
+        const double all = side.x * side.y * side.z;
+        if (source.batches.empty()) return all;
+        const double cell = (region.replicates > 0 ? region.surface : surface_of(box)) / 4 / source.rays;
+        return std::min(all, 3 * cell / (grids * source.replicates) * length(side));
+    }
+
+    /// Finds the densities of regions. Of a region that is not all material, BRL-CAD's attribute los tells how much is.
+    void weigh() {
+        const std::vector<Density>& densities = request.densities;
+        for (std::size_t r = 0; r < regions.size(); ++r) {
+            const RegionInfo& info = model.regions()[r];
+            const Density* found = nullptr;
+            for (const Density& row : densities)
+                if (concerns(row, info)) found = &row;
+            regions[r].has_density = found && info.los > 0;
+            const double weight = regions[r].has_density ? found->density * kg_per_mm3 * info.los / 100 : 0;
+            regions[r].weight = densities.empty() ? 1 : weight;
+        }
+    }
+    std::string material_name(int id) const {
+        std::string name = "material " + std::to_string(id);
+        for (const Density& row : request.densities)
+            if (row.path.empty() && row.material_id == id && !row.name.empty()) name = row.name;
+        return name;
+    }
+
+    // ---- Rays ----
+
+    void sum_piece(const Piece& p, const Grid& grid, std::size_t first_ray,
+                   std::vector<std::pair<std::int32_t, Sums>>& found) const;
+    void flush(std::vector<Piece>& pieces, std::vector<Grid>& all_grids);
+    void commit(Job& job);
+    bool trace(std::vector<Job>& jobs, const std::function<bool()>& go_on);
+    std::vector<Job> plan();
+    Measurement result(bool all_parts) const;
+};
+
+/// Sums a piece's rays, region by region in the order in which they are met.
+void Measurer::Impl::sum_piece(const Piece& p, const Grid& grid, std::size_t first_ray,
+                               std::vector<std::pair<std::int32_t, Sums>>& found) const {
+    const std::int32_t wanted = p.job->region;
+    std::vector<std::int32_t> place(wanted == everything ? regions.size() : 0, -1);
+    if (wanted != everything) found.push_back({wanted, {}});
+    const auto sums_of = [&](std::int32_t r) -> Sums& {
+        if (wanted != everything) return found[0].second;
+        std::int32_t& at = place[static_cast<std::size_t>(r)];
+        if (at < 0) {
+            at = static_cast<std::int32_t>(found.size());
+            found.push_back({r, {}});
+        }
+        return found[static_cast<std::size_t>(at)].second;
+    };
+    const Vec3 d = grid.direction;
+    for (std::uint64_t i = 0; i < p.count; ++i) {
+        const std::size_t ray = first_ray + i;
+        const auto begin = static_cast<std::size_t>(rows.ray_splits[ray]),
+                   end = static_cast<std::size_t>(rows.ray_splits[ray + 1]);
+        if (begin == end) continue;
+        const Vec3 origin = grid.ray(p.first + i).origin;
+        for (std::size_t row = begin; row < end; ++row) {
+            const std::int32_t r = rows.region_ids[row];
+            if (wanted != everything && r != wanted) continue;
+            const double in = rows.t_in[row], out = rows.t_out[row];
+            Sums& sums = sums_of(r);
+            sums.add(out - in, origin - regions[static_cast<std::size_t>(r)].middle + 0.5 * (in + out) * d, d);
+            sums.area += std::abs(dot(rows.in_normals[row], d)) + std::abs(dot(rows.out_normals[row], d));
+        }
+        for (auto k = static_cast<std::size_t>(rows.overlap_splits[ray]);
+             k < static_cast<std::size_t>(rows.overlap_splits[ray + 1]); ++k) {
+            const double overlap = rows.overlap_t_out[k] - rows.overlap_t_in[k];
+            // The first claimant is the owner.
+            for (auto c = static_cast<std::size_t>(rows.overlap_region_splits[k]) + 1;
+                 c < static_cast<std::size_t>(rows.overlap_region_splits[k + 1]); ++c) {
+                const std::int32_t r = rows.overlap_region_ids[c];
+                if (wanted == everything || r == wanted) sums_of(r).others += overlap;
+            }
+        }
+    }
+}
+
+/// Traces the rays of pieces and adds their sums to the jobs, in the order of the pieces.
+void Measurer::Impl::flush(std::vector<Piece>& pieces, std::vector<Grid>& all_grids) {
+    std::vector<std::size_t> firsts;
+    std::size_t count = 0;
+    for (const Piece& p : pieces) {
+        firsts.push_back(count);
+        count += p.count;
+    }
+    std::vector<Ray> rays(count);
+    std::vector<RayRange> ranges(count);
+    constexpr std::size_t few = 4;  // pieces
+    for_chunks(pieces.size(), few, threads, [&](std::size_t first, std::size_t last, std::size_t) {
+        for (std::size_t i = first; i < last; ++i) {
+            const Grid& grid = all_grids[pieces[i].grid];
+            for (std::uint64_t k = 0; k < pieces[i].count; ++k) {
+                rays[firsts[i] + k] = grid.ray(pieces[i].first + k);
+                ranges[firsts[i] + k] = {0, grid.length};
+            }
+        }
+    });
+    renderer.partitions(rays, rows, {.normals = true, .overlaps = true}, {.each = ranges});
+    traced += count;
+    std::vector<std::vector<std::pair<std::int32_t, Sums>>> found(pieces.size());
+    for_chunks(pieces.size(), few, threads, [&](std::size_t first, std::size_t last, std::size_t) {
+        for (std::size_t i = first; i < last; ++i) sum_piece(pieces[i], all_grids[pieces[i].grid], firsts[i], found[i]);
+    });
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+        Job& job = *pieces[i].job;
+        const double cell = all_grids[pieces[i].grid].cell;
+        const std::size_t replicate = pieces[i].replicate - job.first;
+        for (const auto& [r, sums] : found[i]) {
+            const std::size_t at =
+                job.region == everything ? static_cast<std::size_t>(r) * least_batches + replicate : replicate;
+            job.sums[at].add(sums, cell / grids, cell);
+        }
+        if (pieces[i].ends_job) commit(job);
+    }
+    pieces.clear();
+    all_grids.clear();
+}
+
+/// Takes the sums of a job whose rays all are traced.
+void Measurer::Impl::commit(Job& job) {
+    if (job.region == everything) {
+        global = std::move(job.sums);
+        global_rays = job.rays;
+        return;
+    }
+    Region& region = regions[static_cast<std::size_t>(job.region)];
+    if (job.first == 0) region.own.clear();
+    region.own_rays = job.rays;
+    region.replicates = job.last;
+    region.own.resize(std::min<std::size_t>(most_batches, job.last));
+    for (std::uint32_t i = job.first; i < job.last; ++i)
+        region.own[i % region.own.size()].add(job.sums[i - job.first], 1, 1);
+}
+
+/// Traces jobs one after the other. Returns false if it ends before all are done.
+bool Measurer::Impl::trace(std::vector<Job>& jobs, const std::function<bool()>& go_on) {
+    std::vector<Piece> pieces;
+    std::vector<Grid> all_grids;
+    std::size_t count = 0;
+    for (Job& job : jobs) {
+        job.sums.resize(job.region == everything ? regions.size() * least_batches : job.last - job.first);
+        const Box& of = job.region == everything ? box : regions[static_cast<std::size_t>(job.region)].box;
+        for (std::uint32_t replicate = job.first; replicate < job.last; ++replicate) {
+            Random random{request.seed, static_cast<std::uint64_t>(job.region + 1), job.level, replicate};
+            const std::array<Grid, grids> made = grids_of(of, job.rays, random);
+            for (std::size_t g = 0; g < grids; ++g) {
+                for (std::uint64_t first = 0; first < made[g].size(); first += piece) {
+                    const std::uint64_t rays = std::min<std::uint64_t>(piece, made[g].size() - first);
+                    if (pieces.empty() || first == 0) all_grids.push_back(made[g]);
+                    const bool is_last = replicate + 1 == job.last && g + 1 == grids && first + rays == made[g].size();
+                    pieces.push_back({&job, replicate, all_grids.size() - 1, first, rays, is_last});
+                    count += rays;
+                    if (count < at_once) continue;
+                    flush(pieces, all_grids);
+                    count = 0;
+                    if (!go_on()) return false;
+                }
+            }
+        }
+    }
+    if (!pieces.empty()) flush(pieces, all_grids);
+    return go_on();
+}
+
+/// What is to be traced next: for each region that has not reached its aim more rays of its own, or more rays through
+/// the whole model in place of those of several regions, if these are fewer.
+std::vector<Job> Measurer::Impl::plan() {
+    struct Need {
+        std::size_t region;
+        double own, whole;  ///< rays of a grid
+        bool goes_on;       ///< more replicates of the same grids are enough
+    };
+    const double floor = floor_of_aims(), all_surface = surface_of(box);
+    std::vector<Need> needs;
+    for (std::size_t r = 0; r < regions.size(); ++r) {
+        const Region& region = regions[r];
+        const VolumeSoFar so_far = volume_of(source_of(r));
+        if (region.is_empty || has_reached(r, so_far, floor)) continue;
+        const bool has_own = region.replicates > 0;
+        if (has_own && so_far.rows == 0) continue;  // none is met: it is listed with a bound
+        const double share = region.surface / all_surface;
+        const double rays = has_own ? region.own_rays : global_rays * share;
+        // Errors shrink as rays^-1 (smooth parts) to rays^-0.5 (thin ones). The first guess is the better one: if it is
+        // wrong, little is lost.
+        const double far = so_far.rows == 0 ? 1 : 1.1 * so_far.volume.half_width / aim(so_far.volume.value, floor);
+        const double more = std::clamp(std::pow(far, region.levels < 2 ? 1.0 : 1.5), 2.0, 64.0);
+        const bool goes_on = has_own && (more < 2.5 || rays * more > most_own_rays);
+        if (goes_on && region.replicates >= most_replicates) continue;
+        const double own = goes_on ? rays * region.replicates / least_batches : std::max(first_own_rays, rays * more);
+        const bool is_own_alone = goes_on || so_far.rows == 0;
+        needs.push_back({r, own, is_own_alone ? HUGE_VAL : std::max(own / share, 2 * global_rays), goes_on});
+    }
+    std::stable_sort(needs.begin(), needs.end(), [](const Need& a, const Need& b) { return a.whole < b.whole; });
+    double own = 0;
+    for (const Need& need : needs) own += need.own;
+    double least = own, whole = 0;
+    std::size_t served = 0;
+    for (std::size_t i = 0; i < needs.size(); ++i) {
+        own -= needs[i].own;
+        if (needs[i].whole + own >= least) continue;
+        least = needs[i].whole + own;
+        whole = needs[i].whole;
+        served = i + 1;
+    }
+    std::vector<Job> jobs;
+    if (served > 0) jobs.push_back({.rays = whole, .level = ++global_levels});
+    for (std::size_t i = 0; i < served; ++i) regions[needs[i].region].replicates = 0;
+    for (std::size_t i = served; i < needs.size(); ++i) {
+        Region& region = regions[needs[i].region];
+        Job job{.region = static_cast<std::int32_t>(needs[i].region), .rays = needs[i].own, .level = region.levels};
+        if (needs[i].goes_on) {
+            job.rays = region.own_rays;
+            job.first = region.replicates;
+            job.last = 2 * region.replicates;
+        } else {
+            job.level = ++region.levels;
+        }
+        jobs.push_back(std::move(job));
+    }
+    if (!(request.time > 0)) return jobs;
+
+    // The cheapest jobs first, and no more than the time allows.
+    std::stable_sort(jobs.begin(), jobs.end(), [](const Job& a, const Job& b) { return a.cost() < b.cost(); });
+    double left = 0.9 * (request.time - seconds()) / seconds() * static_cast<double>(traced);
+    for (std::size_t i = 0; i < jobs.size(); ++i) {
+        left -= jobs[i].cost();
+        if (left >= 0) continue;
+        const double fits = jobs[i].rays * (left + jobs[i].cost()) / jobs[i].cost();
+        const bool helps = jobs[i].first == 0 && i == 0 && fits > global_rays;
+        if (helps) jobs[i].rays = fits;
+        jobs.resize(helps ? i + 1 : i);
+        break;
+    }
+    return jobs;
+}
+
+Measurement Measurer::Impl::result(bool all_parts) const {
+    Measurement result{.has_densities = !request.densities.empty(), .rays = traced, .seconds = seconds()};
+    const double floor = floor_of_aims();
+    std::vector<Source> sources;
+    std::vector<Measured> single;
+    for (std::size_t r = 0; r < regions.size(); ++r) {
+        const VolumeSoFar so_far = volume_of(source_of(r));
+        const bool is_unmet = so_far.rows == 0 && !regions[r].is_empty;
+        sources.push_back(source_of(r));
+        single.push_back({.id = static_cast<std::int32_t>(r),
+                          .box = regions[r].box,
+                          .regions = 1,
+                          .reached = has_reached(r, so_far, floor),
+                          .unmet = is_unmet,
+                          .weightless = result.has_densities && !regions[r].has_density,
+                          .unmet_bound = is_unmet ? unmet_bound(r) : 0});
+    }
+    const auto add = [&](MeasuredKind kind, std::string name, std::int32_t id,
+                         const std::vector<std::size_t>& members) {
+        Measured m{.kind = kind, .name = std::move(name), .id = id, .box = {{1, 1, 1}, {-1, -1, -1}}};
+        std::vector<Source> of;
+        for (const std::size_t r : members) {
+            of.push_back(sources[r]);
+            m.box = joined(m.box, single[r].box);
+            m.regions += 1;
+            m.reached += single[r].reached;
+            m.unmet += single[r].unmet;
+            m.weightless += single[r].weightless;
+            m.unmet_bound += single[r].unmet_bound;
+        }
+        estimate(of, result.has_densities, m);
+        result.parts.push_back(std::move(m));
+    };
+    std::vector<std::size_t> all;
+    for (std::size_t r = 0; r < regions.size(); ++r) all.push_back(r);
+    add(MeasuredKind::all, "all", -1, all);
+    result.reached = request.rays > 0 ? !is_cut : result.parts[0].reached == regions.size();
+    if (!all_parts) return result;
+
+    std::vector<std::string> assemblies;  // in the order in which paths name them
+    std::unordered_map<std::string, std::vector<std::size_t>> below;
+    std::map<std::int32_t, std::vector<std::size_t>> materials;
+    for (std::size_t r = 0; r < regions.size(); ++r) {
+        const RegionInfo& info = model.regions()[r];
+        for (std::size_t at = info.path.find('/', 1); at != info.path.npos; at = info.path.find('/', at + 1)) {
+            const std::string path = info.path.substr(0, at);
+            std::vector<std::size_t>& members = below[path];
+            if (members.empty()) assemblies.push_back(path);
+            members.push_back(r);
+        }
+        materials[info.material_id].push_back(r);
+    }
+    for (const std::string& path : assemblies) add(MeasuredKind::assembly, path, -1, below[path]);
+    for (const auto& [id, members] : materials) add(MeasuredKind::material, material_name(id), id, members);
+    for (std::size_t r = 0; r < regions.size(); ++r)
+        add(MeasuredKind::region, model.regions()[r].path, static_cast<std::int32_t>(r), {r});
+    return result;
+}
+
+Measurer::Measurer(Model model, const Settings& settings) : impl_(std::make_unique<Impl>(std::move(model), settings)) {}
+Measurer::~Measurer() = default;
+Measurer::Measurer(Measurer&&) noexcept = default;
+Measurer& Measurer::operator=(Measurer&&) noexcept = default;
+
+const Renderer& Measurer::renderer() const { return impl_->renderer; }
+
+Measurement Measurer::measure(const MeasureRequest& request, const std::function<bool(const Measurement&)>& look) {
+    const FloatingPoint state;
+    Impl& m = *impl_;
+    check(request);
+    m.request = request;
+    m.weigh();
+    m.global.clear();
+    m.global_levels = 0;
+    m.traced = 0;
+    m.is_cut = false;
+    for (Region& region : m.regions) {
+        region.replicates = region.levels = 0;
+        region.own.clear();
+    }
+    m.start = m.looked = Clock::now();
+    const auto go_on = [&] {
+        if (m.global.empty()) return true;
+        if (request.time > 0 && m.seconds() >= request.time) return false;
+        if (!look || Clock::now() - m.looked < between_looks) return true;
+        m.looked = Clock::now();
+        return look(m.result(false));
+    };
+    std::vector<Job> jobs(1);
+    jobs[0].rays = request.rays > 0 ? static_cast<double>(request.rays) / (grids * least_batches) : first_rays;
+    if (is_empty(m.box)) jobs.clear();
+    try {
+        while (!jobs.empty()) {
+            m.is_cut = !m.trace(jobs, go_on);
+            if (m.is_cut || request.rays > 0) break;
+            jobs = m.plan();
+        }
+    } catch (const Error& error) {
+        if (error.status() != Status::interrupted || m.global.empty()) throw;
+        m.is_cut = true;
+    }
+    return m.result(true);
+}
+
+}  // namespace csgrt

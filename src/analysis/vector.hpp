@@ -1,0 +1,18 @@
+// Operators of vectors.
+#pragma once
+
+#include <cmath>
+
+#include <csgrt/vector.hpp>
+
+namespace csgrt::analysis {
+
+inline Vec3 operator+(const Vec3& a, const Vec3& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+inline Vec3 operator-(const Vec3& a, const Vec3& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+inline Vec3 operator*(double s, const Vec3& a) { return {s * a.x, s * a.y, s * a.z}; }
+inline double dot(const Vec3& a, const Vec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+inline double length(const Vec3& a) { return std::sqrt(dot(a, a)); }
+
+inline Vec3 center_of(const Box& box) { return 0.5 * (box.low + box.high); }
+
+}  // namespace csgrt::analysis

@@ -1,0 +1,73 @@
+#include <algorithm>
+
+#include "c/described.hpp"
+
+using namespace csgrt;
+using namespace csgrt::c;
+
+struct csgrt_measurer {
+    Measurer measurer;
+    Measurement result = {};  ///< the last one
+    std::vector<Density> densities = {};
+};
+
+namespace {
+
+csgrt_estimate of(const Estimate& e) { return {e.value, e.half_width}; }
+
+template <std::size_t count>
+void copy(const std::array<Estimate, count>& from, csgrt_estimate (&to)[count]) {
+    std::transform(from.begin(), from.end(), to, [](const Estimate& e) { return ::of(e); });
+}
+
+}  // namespace
+
+csgrt_status csgrt_measurer_create(const csgrt_model* model, const csgrt_settings* settings,
+                                   csgrt_measurer** measurer) {
+    return make(measurer, [&] { return Measurer(CSGRT_NEED(model).model, settings_of(settings)); });
+}
+
+void csgrt_measurer_free(csgrt_measurer* measurer) { delete measurer; }
+
+csgrt_status csgrt_measurer_measure(csgrt_measurer* measurer, const csgrt_measure_request* request,
+                                    csgrt_measurement* result) {
+    return call([&] {
+        csgrt_measurer& m = CSGRT_NEED(measurer);
+        auto wanted = request ? described<MeasureRequest>(
+                                    read(request, csgrt_measure_request CSGRT_MEASURE_REQUEST, "request"), "request")
+                              : MeasureRequest{};
+        if (wanted.densities.empty()) wanted.densities = m.densities;
+        m.result = m.measurer.measure(wanted);
+        fill(result,
+             {0, m.result.has_densities, m.result.reached, m.result.rays, m.result.seconds, m.result.parts.size()},
+             "result");
+    });
+}
+
+csgrt_status csgrt_measurer_part(const csgrt_measurer* measurer, size_t index, csgrt_measured* part) {
+    return call([&] {
+        const Measured& m = item(CSGRT_NEED(measurer).result.parts, index);
+        csgrt_measured all CSGRT_MEASURED;
+        all.kind = static_cast<int>(m.kind);
+        all.name = m.name.c_str();
+        all.id = m.id;
+        all.volume = ::of(m.volume);
+        all.claimed = ::of(m.claimed);
+        all.area = ::of(m.area);
+        all.mass = ::of(m.mass);
+        copy(m.centroid, all.centroid);
+        copy(m.origin, all.origin);
+        copy(m.central, all.central);
+        all.box = csgrt::c::of(m.box);
+        all.regions = m.regions;
+        all.reached = m.reached;
+        all.unmet = m.unmet;
+        all.weightless = m.weightless;
+        all.unmet_bound = m.unmet_bound;
+        fill(part, all, "part");
+    });
+}
+
+csgrt_status csgrt_measurer_load_densities(csgrt_measurer* measurer, const char* path) {
+    return call([&] { CSGRT_NEED(measurer).densities = load_densities(&CSGRT_NEED(path)); });
+}

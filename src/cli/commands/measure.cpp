@@ -1,0 +1,79 @@
+// csgrt measure: volumes, masses, areas and moments of a scene's parts, with their errors.
+#include <algorithm>
+#include <filesystem>
+#include <utility>
+
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include "commands.hpp"
+#include "cli/fatal_end.hpp"
+#include "cli/interrupt.hpp"
+#include "cli/output.hpp"
+#include "cli/progress.hpp"
+#include "cli/text/measurement.hpp"
+
+namespace csgrt::cli {
+
+namespace {
+
+/// Columns of the table: those of the terminal, from 80 to 120.
+std::size_t table_width() {
+    winsize size{};
+    const bool is_known = ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
+    return std::clamp<std::size_t>(is_known ? size.ws_col : 100, 80, 120);
+}
+
+}  // namespace
+
+Status run(const MeasureArguments& arguments) {
+    std::vector<NamedFile> outputs, inputs = {{"SCENE", arguments.scene}};
+    if (!arguments.json.empty()) outputs.push_back({"--json", arguments.json});
+    if (!arguments.csv.empty()) outputs.push_back({"--csv", arguments.csv});
+    if (!arguments.densities.empty()) inputs.push_back({"--densities", arguments.densities});
+    check_outputs(outputs, inputs);
+    MeasureRequest request = arguments.request;
+    std::error_code ignored;
+    if (!arguments.densities.empty()) {
+        request.densities = load_densities(arguments.densities);
+    } else if (std::filesystem::is_regular_file(arguments.scene, ignored)) {  // else the scene alone can be read
+        std::vector<Warning> warnings;
+        request.densities = load_densities(arguments.scene, &warnings);
+        report(std::move(warnings), false);
+    }
+    Measurement result;
+    {
+        Progress progress;
+        progress.stage("loading");
+        prepare_devices(arguments.settings);
+        Scene scene = load(arguments.scene, arguments.load);
+        progress.stage("compiling");
+        Settings settings = with_progress(arguments.settings, progress);
+        Model model(std::move(scene), arguments.objects, settings);
+        report(model.warnings(), false);
+        check_interrupt();
+        settings.progress = [](double) {  // the note tells how far it is
+            catch_fatal_ends_again();
+            return !interrupted();
+        };
+        Measurer measurer(std::move(model), settings);
+        report(measurer.renderer().device_warnings(), false);
+        progress.stage("measuring");
+        result = measurer.measure(request, [&](const Measurement& so_far) {
+            progress.note(to_note(so_far, request));
+            return !interrupted();
+        });
+    }
+    const std::pair<const std::string&, std::string> files[] = {{arguments.json, to_json(result, request)},
+                                                                {arguments.csv, to_csv(result)}};
+    for (const auto& [file, text] : files) {
+        if (file.empty()) continue;
+        OutputFile out(file);
+        out.write(text);
+        out.commit();
+    }
+    if (arguments.json != "-" && arguments.csv != "-") print(to_text(result, request, arguments.depth, table_width()));
+    return interrupted() ? Status::interrupted : Status::ok;
+}
+
+}  // namespace csgrt::cli
