@@ -15,7 +15,9 @@ from . import _core
 from ._image import Image
 from ._page import Page
 from ._solids import Part, scene_text, shape_text, sphere
-from ._values import Child, Pick, Place, Region, Regions, SceneWarning, Solid, Warning, did_you_mean, unmasked
+from ._values import (
+    Child, Measurement, Pick, Place, Region, Regions, SceneWarning, Solid, Warning, did_you_mean, unmasked,
+)
 
 if TYPE_CHECKING:
     from typing import Union
@@ -32,6 +34,7 @@ if TYPE_CHECKING:
 _TAKEN = {"float": "a number", "int": "a whole number", "bool": "True or False", "str": "a string",
           "float | None": "a number or None", "csgrt._values.DeviceChoice": "a number or a name",
           "csgrt._values.ThreeNumbers | None": "three numbers or None",
+          "dict[int | str, float]": "a dict of g/cm^3 by numbers of materials or by paths",
           "collections.abc.Sequence[tuple[csgrt._values.ThreeNumbers, float]]": "a list of (normal, distance)"}
 
 
@@ -266,6 +269,16 @@ class Scene(_core.Scene):
         Of two regions that touch at the point it is the one that begins there along +x. Raises csgrt.Error.
         """
         return self._regions_at(_doubles(points, 3, "points"))
+
+    def measure(self, **request: Unpack[_core.MeasureKeywords]) -> Measurement:
+        """Volumes, masses, areas, centroids and moments of all parts, each with a 95 % interval.
+
+        request: attributes of csgrt.MeasureRequest: rel_error=1e-3, densities={1: 7.85}, seed=2, ...
+        Raises csgrt.Error (usage, out_of_memory, device_fault), TypeError (members and their values).
+        """
+        wanted = _core.MeasureRequest()
+        _assign(request, "a measure has no", wanted)
+        return Measurement(*self._measurement(wanted))
 
     # ---- Views
 

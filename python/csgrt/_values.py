@@ -289,6 +289,85 @@ class Verification(TypedDict):
     worst_ulps: float
 
 
+class Estimate(NamedTuple):
+    """A number, and half the width of the interval that holds the true one in 95 of 100 measures."""
+
+    nominal: float
+    half_width: float
+
+
+_describe(Estimate)
+
+
+class Measured(NamedTuple):
+    """The figures of one region, or of several together.
+
+    kind: "all", "assembly", "material" or "region". name: a path, or a material's name. id: of a region its id, of a
+    material its number, else -1. volume (what the regions own), claimed (an overlap counts for each claimant): mm^3;
+    area: mm^2; mass: kg, 0 without densities; centroid: x, y, z, mm. origin, central: moments xx, yy, zz and products
+    xy, yz, zx of inertia about the origin and the centroid: kg mm^2, without densities mm^5. box: (low, high), mm.
+    regions, reached, unmet, weightless: numbers of regions: all, those that have reached the error, those that no ray
+    has met, those without a density. unmet_bound: mm^3, what the unmet ones may have at most.
+    """
+
+    kind: str
+    name: str
+    id: int
+    volume: Estimate
+    claimed: Estimate
+    area: Estimate
+    mass: Estimate
+    centroid: tuple[Estimate, ...]
+    origin: tuple[Estimate, ...]
+    central: tuple[Estimate, ...]
+    box: Bounds
+    regions: int
+    reached: int
+    unmet: int
+    weightless: int
+    unmet_bound: float
+
+
+_describe(Measured)
+
+
+class Measurement:
+    """What Scene.measure() answers. measurement[path] is a part; measurement["all"] is all together.
+
+    parts: all together, assemblies, materials, regions. has_densities: whether there are masses. reached: whether each
+    region has reached the error. rays: how many were traced. seconds: what it took.
+    """
+
+    def __init__(self, rows: Iterable[Any], has_densities: bool, reached: bool, rays: int, seconds: float):
+        def estimates(pairs: Iterable[Any]) -> tuple[Estimate, ...]:
+            return tuple(Estimate(*pair) for pair in pairs)
+
+        self.parts: list[Measured] = [
+            Measured._make((kind, name, number, *estimates(figures), *map(estimates, moments), *rest))
+            for kind, name, number, figures, moments, *rest in rows]
+        self.has_densities: bool = has_densities
+        self.reached: bool = reached
+        self.rays: int = rays
+        self.seconds: float = seconds
+        self._by_name: dict[str, Measured] = {part.name: part for part in reversed(self.parts)}
+
+    def __getitem__(self, name: str) -> Measured:
+        try:
+            return self._by_name[name]
+        except KeyError:
+            raise KeyError(f"no part {name!r}{did_you_mean(name, self._by_name)}") from None
+
+    @property
+    def volume(self) -> dict[str, Estimate]:
+        """The volumes of all parts by their names, mm^3."""
+        return {name: part.volume for name, part in self._by_name.items()}
+
+    @property
+    def mass(self) -> dict[str, Estimate]:
+        """The masses of all parts by their names, kg."""
+        return {name: part.mass for name, part in self._by_name.items()}
+
+
 class Material(TypedDict, total=False):
     """Members of a material in csgrt's JSON, besides its colour: what Part.color() and Subtree.finish take."""
 

@@ -182,6 +182,12 @@ public:
         return result;
     }
 
+    Measurement measure(const MeasureRequest& request) {
+        Measurement result;
+        run([&](Renderer& renderer) { result = Measurer(renderer.model(), settings_).measure(request); });
+        return result;
+    }
+
 private:
     void require_own_process() const {
         if (getpid() != process_)
@@ -387,6 +393,24 @@ Figures verify(LiveScene& scene, std::size_t rays, std::uint64_t seed) {
     return figures;
 }
 
+/// The members of csgrt.Measurement, with a row for each part.
+Row measurement(LiveScene& scene, const MeasureRequest& request) {
+    const Measurement result = scene.measure(request);
+    const auto pairs = [](const auto& estimates) {
+        Rows rows;
+        for (const Estimate& e : estimates) rows.append(nb::make_tuple(e.value, e.half_width));
+        return rows;
+    };
+    constexpr const char* kinds[] = {"all", "assembly", "material", "region"};
+    Rows parts;
+    for (const Measured& m : result.parts)
+        parts.append(nb::make_tuple(kinds[static_cast<int>(m.kind)], m.name, m.id,
+                                    pairs(std::array{m.volume, m.claimed, m.area, m.mass}),
+                                    nb::make_tuple(pairs(m.centroid), pairs(m.origin), pairs(m.central)), m.box,
+                                    m.regions, m.reached, m.unmet, m.weightless, m.unmet_bound));
+    return nb::make_tuple(parts, result.has_densities, result.reached, result.rays, result.seconds);
+}
+
 }  // namespace
 
 void bind_scene(nb::module_& module) {
@@ -449,6 +473,7 @@ void bind_scene(nb::module_& module) {
              "Judges a sample of rays, on the device and on the reference, by 113-bit arithmetic.\n\n"
              "Returns a dict: passed (no decided ray is wrong, no bit differs), rays, hits, decided, ties, wrong, "
              "bit_differences, ends,\nfarthest_mm, worst_ulps (errors of distances), device. Raises csgrt.Error.")
+        .def("_measurement", &measurement)
         .def("_set_color", [](LiveScene& scene, const std::string& path,
                               const Vec3& color) { scene.edit([&](Edit& e) { e.set_color(path, color); }); })
         .def("_set_finish",

@@ -1,6 +1,7 @@
 // How csgrt computes and what a picture shows, as classes: the attributes, and what is said of them, are those of the
 // descriptions (src/form/requests.hpp).
 #include <form/camera.hpp>
+#include <form/measure.hpp>
 
 #include <nanobind/stl/set.h>
 
@@ -32,6 +33,8 @@ void bind_member(nb::class_<S>& bound, const Member& member) {
     const char* const name = text.c_str();
     std::string sentence = form::whole_sentence(member, S{}.*member.at);
     if constexpr (std::is_same_v<Value, std::vector<Plane>>) sentence += " A list of (normal, distance).";
+    if constexpr (std::is_same_v<Value, std::vector<Density>>)
+        sentence += " A dict of g/cm^3 by the numbers of materials or by paths.";
     const char* const doc = sentence.c_str();  // nanobind copies it
     const auto at = member.at;
     if constexpr (std::is_same_v<Value, std::function<bool(double)>> ||
@@ -57,6 +60,28 @@ void bind_member(nb::class_<S>& bound, const Member& member) {
                 for (const auto& [normal, distance] : planes) (s.*at).push_back({normal, distance});
             },
             doc);
+    } else if constexpr (std::is_same_v<Value, std::vector<Density>>) {
+        bound.def_prop_rw(
+            name,
+            [at](const S& s) {
+                nb::dict rows;
+                for (const Density& row : s.*at)
+                    rows[row.path.empty() ? nb::object(nb::int_(row.material_id)) : nb::str(row.path.c_str())] =
+                        row.density;
+                return rows;
+            },
+            [at](S& s, const nb::dict& rows) {
+                (s.*at).clear();
+                for (const auto& [key, density] : rows) {
+                    Density row;
+                    const bool is_row = nb::try_cast(density, row.density) &&
+                                        (nb::try_cast(key, row.material_id) || nb::try_cast(key, row.path));
+                    if (!is_row) throw nb::type_error("no density of a material or a path");
+                    (s.*at).push_back(std::move(row));
+                }
+            },
+            nb::for_getter(nb::sig("def densities(self) -> dict[int | str, float]")),
+            nb::for_setter(nb::sig("def densities(self, arg: dict[int | str, float], /) -> None")), doc);
     } else if constexpr (std::is_same_v<Value, std::optional<Vec3>> || std::is_same_v<Value, std::optional<double>>) {
         bound.def_rw(name, at, nb::none(), doc);
     } else {
@@ -85,6 +110,8 @@ void bind_settings(nb::module_& module) {
                 throw nb::value_error(text_of(*conflict).c_str());
             return merged(camera, given, is_given);
         });
+    bind<MeasureRequest>(module, "MeasureRequest", "What Scene.measure() shall reach, and at what cost.")
+        .def(nb::init<>());
     bind<View>(module, "View", "What a picture shows.").def(nb::init<>());
 }
 

@@ -11,7 +11,7 @@ from conftest import ROOT
 
 def blocks():
     """The Python of the documents, with the file's name."""
-    for name in ("README.md", "docs/python.md"):
+    for name in ("README.md", "docs/python.md", "docs/analysis.md"):
         for block in re.findall(r"^```python\n(.*?)^```$", (ROOT / name).read_text(), re.MULTILINE | re.DOTALL):
             yield pytest.param(block, id=name)
 

@@ -338,5 +338,27 @@ def test_verify_judges_a_scene(operators):
         operators.verify(0)
 
 
+def test_measure_weighs_parts():
+    block, bore = csgrt.box((20, 20, 5)), csgrt.cylinder(7, 3).translate((10, 10, -1))
+    scene = csgrt.Scene({"plate": block - bore, "pin": csgrt.cylinder(5, 3).translate((10, 10, 0))})
+    result = scene.measure(rel_error=1e-3, densities={1: 7.85, "/pin": 8.8})
+    plate, pin = result["/plate"], result["/pin"]
+    assert result.reached and result.has_densities and result.rays > 0
+    for part, volume, density in ((plate, 2000 - 45 * np.pi, 7.85e-6), (pin, 45 * np.pi, 8.8e-6)):
+        assert part.kind == "region" and part.volume.half_width < 1e-3 * volume
+        assert abs(part.volume.nominal - volume) < 2.5 * part.volume.half_width
+        assert abs(part.mass.nominal - density * volume) < 2.5 * part.mass.half_width
+    assert result.volume["/pin"] == pin.volume and result.mass["all"] == result.parts[0].mass
+    assert abs(result["all"].volume.nominal - 2000) < 2.5 * result["all"].volume.half_width
+    assert scene.measure(rel_error=1e-3, densities={1: 7.85, "/pin": 8.8}).parts == result.parts
+    with pytest.raises(KeyError, match="did you mean '/plate'"):
+        result["/plat"]
+    for wrong in ({"rel_eror": 1}, {"rel_error": "x"}, {"densities": {1: "a"}}, {"densities": {1.5: 1}}):
+        with pytest.raises(TypeError, match="rel_error|a dict of g/cm"):
+            scene.measure(**wrong)
+    with pytest.raises(csgrt.Error, match="must be greater than 0"):
+        scene.measure(rel_error=0)
+
+
 def test_devices_are_listed():
     assert any(device.platform == "csgrt" for device in csgrt.devices())

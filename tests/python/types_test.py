@@ -35,6 +35,7 @@ assert_type(image.color, NDArray[np.uint8])
 assert_type(image["ghost"], NDArray[np.uint32])
 assert_type(scene.pick(np.int64(3), 3).partitions, list[tuple[int, float, float]])
 assert_type(scene.verify()["wrong"], int)
+assert_type(scene.measure(rel_error=1e-3, densities={1: 7.85, "/a": 1})["/a"].mass.nominal, float)
 assert_type(scene["/a"].state, Literal["shown", "ghost", "hidden"])
 scene["/a"].color = np.array([0, 1, 0])
 scene["/a"].finish = {"specular": 0.5}
@@ -55,6 +56,7 @@ csgrt.parse("", toleranse=1)
 scene["/a"].state = "hiden"
 scene["/a"].colour = (0, 1, 0)
 scene["/a"].finish = {"specullar": 1}
+scene.measure(rel_eror=1)
 scene.add_leg("a", "b", "unoin")
 scene.render(azimut=3)
 scene.render(eye=3)
