@@ -316,7 +316,9 @@ bool ViewSession::draw_with(Drawer& drawer, const Model& model, const std::funct
 }
 
 void ViewSession::note_picture(double rays, double ms) {
-    if (rays > telling_rays || ms > pass_ms) rays_of_pass_ = rays * pass_ms / std::max(ms, 0.01);
+    // A picture of background alone tells little: the number grows by steps.
+    if (rays > telling_rays || ms > pass_ms)
+        rays_of_pass_ = std::min(rays * pass_ms / std::max(ms, 0.01), 2 * rays_of_pass_);
 }
 
 bool ViewSession::draw_in_passes(const Model& model, View view, const std::function<bool()>& is_wanted, Image& whole,
