@@ -37,7 +37,7 @@ const char* sentence_of(int status) {
         case http::no_length:
             return "refused: the request does not say how long it is (Content-Length)";
         case http::too_large:
-            return "the request has more than 1 MB";
+            return "the request has more than 1 MB: looks of many single parts are to be looks of what is above them";
         case http::large_head:
             return "refused: the head of the request has more than 16 kB";
         default:
