@@ -100,8 +100,7 @@ std::string bytes_of(const Value* values, std::size_t count) {
     return {reinterpret_cast<const char*>(values), count * sizeof(Value)};
 }
 
-/// Copies a part of a picture to its place in the whole, which gets memory if an earlier picture of another form had
-/// it.
+/// Copies a part of a picture to its place in the whole, whose memory is made unless it has the picture's form.
 void put(const Image& image, const View& view, Renderer& renderer, Image& whole) {
     if (whole.width != view.width || whole.height != view.height || whole.names != image.names) {
         View nothing = view;  // A picture of nothing is memory alone, and its drawing can be ended.

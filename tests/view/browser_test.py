@@ -143,7 +143,7 @@ class Browser(unittest.TestCase):
             self.assertAlmostEqual(b[2], (float(p[2]) - float(p[1])) / (high - low), delta=0.01)
         page.js("document.querySelector('#beam button[data-path$=\"twin.r\"]').click()")
         self.assertEqual(page.text("selected-path"), "/all/pair/twin.r")
-        self.assertIn("102", page.text("selected-facts"))
+        self.assertIn("102", page.idle().text("selected-facts"))
         self.assertEqual(page.js("return document.querySelector('#rows [aria-selected=true]').dataset.path"),
                          "/all/pair/twin.r")
 
@@ -197,6 +197,18 @@ class Browser(unittest.TestCase):
         yellow = page.color(*at)
         self.assertGreater(min(yellow[:2]), yellow[2] + 50)
         self.assert_as_the_command_draws()
+
+    def test_fits_of_parts(self):
+        page, center = self.page, lambda: self.page.view()["camera"]["center"]
+        page.js("select('/all/pair/twin.r')")
+        self.assertEqual(page.idle().js("return selected_boxes.map(box => [box.low, box.high])"),
+                         [[[20, -40, -40], [50, 40, 40]]])
+        self.assertEqual(page.press("selected-fit").view()["camera"]["center"], [35, 0, 0])
+        page.js("select('/all/pair', '/all/front.r')")
+        page.press("selected-isolate-fit")
+        self.assertEqual((center(), len(page.view()["looks"])), ([40, 0, 0], 3))
+        page.js("act.state(['/all/pair'], 'hidden')")
+        self.assertEqual(page.press("fit").view()["camera"]["center"], [70, 0, 0])
 
     def test_undo_and_redo(self):
         page, at = self.page, self.middle

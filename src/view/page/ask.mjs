@@ -45,9 +45,9 @@ export function ask_selected() {
     draw_overlay();
   });
 }
-/// Selects the parts of these paths, and no others. The last of them comes into sight.
+/// Selects the parts of these paths or lists of paths, and no others. The last of them comes into sight.
 export function select(...paths) {
-  hold({selection: paths});
+  hold({selection: paths.flat()});
   if (selected !== null) reveal(selected);
   draw_tree();
   ask_selected();
@@ -58,7 +58,7 @@ export function select(...paths) {
 }
 /// Selects a part besides the others, or no longer.
 export const toggle_selected = path =>
-  select(...selection.includes(path) ? selection.filter(other => other !== path) : [...selection, path]);
+  select(selection.includes(path) ? selection.filter(other => other !== path) : [...selection, path]);
 const facts = (list, pairs) => by(list).replaceChildren(...pairs.flatMap(([name, value]) =>
   [el("dt", {textContent: name}), el("dd", {textContent: value})]));
 export function draw_selected() {
@@ -66,16 +66,17 @@ export function draw_selected() {
   by("hint").hidden = selected !== null || answer !== null;
   if (selected === null) return;
   const ranges = selected_ranges, [low] = ranges.at(-1), several = selection.length > 1;
-  const count = ranges.reduce((sum, [low, high]) => sum + high - low, 0), row = selected_row;
+  const count = ranges.reduce((sum, [low, high]) => sum + high - low, 0), row = selected_row, later = "\u2026";
   by("selected-swatch").style.background = css(regions.colors[low]);
   by("selected-path").textContent = several ? `${selection.length} parts` : selected;
   by("selected-path").title = selection.slice(-30).join("\n");
   if (!is_focused(by("selected-color"))) by("selected-color").value = hex(regions.colors[low]);
   facts("selected-facts", [
-    ...several || regions.paths[low] !== selected ? [["regions", count]] : !row ? [] :
-      [["region id", row.region_id], ["material", row.material_id], ["air", row.air], ["los", row.los]],
+    ...several || regions.paths[low] !== selected ? [["regions", count]] :
+      [["region id", "region_id"], ["material", "material_id"], ["air", "air"], ["los", "los"]]
+        .map(([name, member]) => [name, row?.[member] ?? later]),
     ["state", state_word(ranges)],
-    ...!row ? [] : [["box", row.low ? minus(row.high, row.low).map(v => number(v, 5)).join(" x ") : "open"]]]);
+    ["box", !row ? later : row.low ? minus(row.high, row.low).map(v => number(v, 5)).join(" x ") : "open"]]);
 }
 /// Asks what stands at a place of the picture: the server is told whole pixels of the full one.
 export async function ask_pixel(x, y, brief) {

@@ -143,7 +143,7 @@ function select_row(path, {shiftKey, ctrlKey, metaKey}) {
   if (shiftKey && selected !== null) {
     const [from, to] = [anchor, path].map(wanted => rows.findIndex(node => node.path === wanted));
     const between = from < 0 ? [] : rows.slice(Math.min(from, to), Math.max(from, to) + 1);
-    return select(...between.map(node => node.path).filter(other => other !== path), path);
+    return select(between.map(node => node.path).filter(other => other !== path), path);
   }
   anchor = path;
   if (ctrlKey || metaKey) toggle_selected(path);
