@@ -33,8 +33,9 @@ def test_a_page_shows_the_scene_as_it_is_and_ends(operators, command):
     operators.commit()
     with operators.view(command=command, height=300) as page:
         model = ask(page, "model")
-        assert [region["path"] for region in model["regions"]] == [region.path for region in operators.regions]
-        looks = {region["path"]: (region["color"], region["state"]) for region in model["regions"]}
+        assert model["paths"] == [region.path for region in operators.regions]
+        own = [(look["color"], look["state"]) for look in model["own_looks"]]
+        looks = {path: own[look] for path, look in zip(model["paths"], model["look_of"])}
         assert looks["/operators/union"] == ([0, 0.25, 1], "shown")
         assert looks["/operators/intersection"][1] == "hidden"
         assert page.address in page._repr_html_() and "300px" in page._repr_html_()
