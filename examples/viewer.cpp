@@ -49,7 +49,7 @@ struct Viewer {
     std::vector<csgrt::Model> before;  // Models share what an edit leaves alone
 
     Viewer(csgrt::Model model, const csgrt::Camera& camera)
-        : renderer(std::move(model), {.progress = [this](double) { return !cancelled; }}) {
+        : renderer(std::move(model), {.wait_for_device = true, .progress = [this](double) { return !cancelled; }}) {
         view.width = 800;
         view.height = 600;
         view.camera = camera;
@@ -161,8 +161,9 @@ void act(Viewer& v, Table& table, int right) {
     const csgrt::Matrix gizmo = turned(seen.point, 5, 0.01 * v.height());
     const csgrt::Shape ball = csgrt::Ell{seen.point, {10, 0, 0}, {0, 10, 0}, {0, 0, 10}};
     ACTION("move a part by a gizmo's matrix", v.show(v.edit().move(part, gizmo)))
+    ACTION("drag it on", v.show(v.edit().move(part, gizmo)))
     ACTION("add a part", v.show(v.edit().add(csgrt::Solid{"a new ball", ball}, true)))
-    ACTION("move the new part", v.show(v.edit().move("/a new ball", gizmo)))
+    ACTION("drag the new part", v.show(v.edit().move("/a new ball", gizmo)))
     ACTION("remove a part", v.show(v.edit().remove(part)))
     ACTION("undo", v.undo())
     while (!v.before.empty()) v.undo();

@@ -29,11 +29,11 @@ Scene scene_under(const Object& solid, const Matrix& matrix) {
     Scene scene;
     scene.objects.push_back(solid);
     Combination part;
-    part.name = "part";
+    part.name = "held";
     part.region = true;
     part.tree = tree(name_of(solid), matrix);
     scene.objects.push_back(part);
-    scene.top = {"part"};
+    scene.top = {"held"};
     return scene;
 }
 
