@@ -60,7 +60,7 @@ private:
     std::optional<ScenePacker> packer_;
     std::vector<Warning> warnings_;  ///< of the steps before packing
     bool is_kept_ = false;           ///< packer_ can lay out more than once
-    bool is_local_ = false;          ///< a part can be compiled by itself
+    bool is_local_ = true;           ///< a part can be compiled by itself
     CompiledScene compiled_;
 };
 

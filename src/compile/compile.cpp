@@ -118,6 +118,7 @@ Compilation::Compilation(std::shared_ptr<const Scene> of, const std::vector<std:
     while (leave_out_extremes(scene, flat_, *measured_, names_, warnings_)) {
         flat_ = flattened();
         measured_.emplace(scene, flat_);
+        is_local_ = false;  // another matrix may bring a solid back
     }
     warnings_.insert(warnings_.end(), flat_.warnings.begin(), flat_.warnings.end());
     if (flat_.regions.empty()) throw Error(Status::scene, nothing_to_render(warnings_));
@@ -140,7 +141,7 @@ Compilation::Compilation(std::shared_ptr<const Scene> of, const std::vector<std:
     compiled_ = {std::move(space), std::move(logic), {}, std::move(appearance), {}, 0, 0, {}};
     is_kept_ = boxes.size() <= most_kept;
     pack();
-    is_local_ = is_kept_ && compiled_.unbounded_count == 0 && clipped_.ray_boxes.empty() &&
+    is_local_ = is_local_ && is_kept_ && compiled_.unbounded_count == 0 && clipped_.ray_boxes.empty() &&
                 compiled_.region_lights.empty() && std::ranges::all_of(boxes, is_finite);
 }
 

@@ -144,4 +144,21 @@ void go(int chains, int steps) {
 
 TEST_CASE("parts that move have the bits of a scene compiled anew", "[promise:edits]") { go(tries(40), 12); }
 
+TEST_CASE("a solid that is left out comes back when a matrix changes", "[promise:edits]") {
+    const double far = 0.75 * Limits::length;
+    Scene made;
+    made.lenient = true;
+    made.objects = {ball("ball", {0, 0, 0}), ball("other", {9, 0, 0}), group("inner", {leg("ball", moved(far, 0, 0))}),
+                    group("outer", {leg("inner", moved(far, 0, 0))}), group("rest", {leg("other")})};
+    const auto scene = std::make_shared<const Scene>(made);
+    Compilation compilation(scene, {}, CompileOptions(), 1000);
+    const CompiledScene before = compilation.compiled();
+    REQUIRE(before.region_info.size() == 1);
+    SceneChanges changes;
+    changes.matrices[{3, 0}] = moved(-far, 0, 0);
+    const std::optional<CompiledScene> made_local = compilation.with(changes, before, {});
+    if (made_local) require_same(*made_local, compile(changed_scene(*scene, changes)));
+    CHECK(compile(changed_scene(*scene, changes)).region_info.size() == 2);
+}
+
 TEST_CASE("parts that move have the bits of a scene compiled anew: 1,000 chains", "[.long]") { go(1000, 30); }
