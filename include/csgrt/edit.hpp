@@ -12,7 +12,7 @@ namespace csgrt {
 
 /// Collects changes to a Model; commit() makes the next Model with all of them. If only colours, finishes without a
 /// light, states, lights and the background change, nothing is compiled, and all regions and solids keep their indices.
-/// A member that moves, or is removed from a union, is compiled by itself as long as the model's extent stays; solids
+/// A part that moves, or is removed from a union, is compiled by itself as long as the model's extent stays; solids
 /// may get other indices, as may regions after a removal. All other changes compile the scene anew. The next Model is
 /// always the Model that would be compiled from its scene, to the last bit. Renderers keep their programs and buffers.
 ///

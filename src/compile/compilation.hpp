@@ -30,6 +30,8 @@ public:
     const CompiledScene& compiled() const { return compiled_; }
     const std::shared_ptr<const Scene>& scene() const { return scene_; }
     const Names& names() const { return names_; }
+    /// The objects that it renders, by the caller's names or as the scene's top objects.
+    const std::vector<std::string>& roots() const { return roots_; }
     bool is_kept() const { return is_kept_; }
 
     /// Compiles the scene with `changes`, to the bits of a scene compiled anew. `before`: a compiled form with the
@@ -49,6 +51,7 @@ private:
 
     std::shared_ptr<const Scene> scene_;
     Names names_;
+    std::vector<std::string> roots_;
     SceneChanges changes_;  ///< of the scene
     Validated validated_;
     FlatScene flat_;

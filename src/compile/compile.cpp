@@ -105,9 +105,10 @@ Compilation::Compilation(std::shared_ptr<const Scene> of, const std::vector<std:
                          const CompileOptions& options, std::size_t most_kept)
     : scene_(std::move(of)), names_(*scene_), warnings_(scene_->warnings) {
     const Scene& scene = *scene_;
-    std::vector<std::string> roots = objects.empty() ? names_.top_objects() : objects;
+    roots_ = objects.empty() ? names_.top_objects() : objects;
     validated_ = validate(scene, names_, objects, options.skip_unsupported, warnings_, options.max_instances);
     if (!validated_.findings.empty()) throw Error(Status::scene, std::move(validated_.findings));
+    std::vector<std::string> roots = roots_;
     if (roots.empty()) roots = names_.top_objects();  // now cycles are cut; before, all objects may have been in cycles
 
     const auto flattened = [&] {
@@ -225,10 +226,10 @@ bool Compilation::place(const SceneChanges& changes, const std::vector<Member>& 
                         std::vector<std::uint32_t>& regions) {
     bool is_sound = true;
     for (const Member& member : members) {
-        TreeNode node = names_.node(member.first, member.second);
-        node.matrix = names_.matrix(member.first, member.second, changes.matrices);
+        const TreeNode node{.matrix = names_.matrix(member.first, member.second, changes.matrices)};
         check_matrix(node, [&](const Place&, const std::string&, const std::string&) { is_sound = false; });
-        if (names_.child(member.first, member.second) >= Names::left_out) is_sound = false;
+        if (member.second != Names::none && names_.child(member.first, member.second) >= Names::left_out)
+            is_sound = false;
     }
     if (!is_sound) return false;
     changes_.matrices = changes.matrices;

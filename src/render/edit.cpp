@@ -86,8 +86,7 @@ bool Edit::Impl::beside(const Change& change) {
     const std::unique_lock lock(source.kept->mutex, std::try_to_lock);
     const Compilation* const compilation = lock ? source.kept->of.get() : nullptr;
     if (scene || compilation == nullptr || compilation->scene() != source.scene) return false;
-    const Names& names = compilation->names();
-    return change(names, source.objects.empty() ? names.top_objects() : source.objects, source.changes);
+    return change(compilation->names(), source.objects.empty() ? compilation->roots() : source.objects, source.changes);
 }
 
 Edit::Edit(Model model) : impl_(new Impl{.before = model.impl_, .source = model.impl_->source}) {}

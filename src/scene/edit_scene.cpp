@@ -208,12 +208,22 @@ void remove_leaves(Scene& scene, const Names& names, std::uint32_t parent, const
     for (auto leaf = leaves.rbegin(); leaf != leaves.rend(); ++leaf) remove_leaf(tree, *leaf);
 }
 
-/// The objects along a path that ends with a member. No steps: the path leads to no member, or through a removed
-/// member, whose name may lead to another member now.
-ObjectPath find_member(const Names& names, const std::string& path, const SceneChanges& changes) {
+/// Whether a path is among the `rendered` objects, once, and its object can have a place in Scene::top_matrices.
+bool is_top(const Names& names, const std::vector<std::string>& rendered, const std::string& path) {
+    const Scene& scene = names.scene();
+    const auto is_name = [&](const std::string& top) { return names.find(top) != Names::none; };
+    return std::ranges::count(rendered, bare_path(path), bare_path) == 1 && names.taken().empty() &&
+           std::ranges::count(scene.top, bare_path(path), bare_path) < 2 &&
+           (!scene.top_matrices.empty() || std::ranges::all_of(scene.top, is_name));
+}
+
+/// The objects along a path that ends with a member, or is a top object's name. No steps: it is neither, or it leads
+/// through a removed member, whose name may lead to another member now.
+ObjectPath find_member(const Names& names, const std::vector<std::string>& rendered, const std::string& path,
+                       const SceneChanges& changes) {
     ObjectPath found = find_path(names.scene(), names, path);
     const std::vector<ObjectPath::Step>& steps = found.steps;
-    bool is_there = steps.size() > 1;
+    bool is_there = steps.size() > 1 || is_top(names, rendered, path);
     for (std::size_t i = 1; i < steps.size(); ++i)
         is_there = is_there && !changes.removed.contains({steps[i - 1].object, steps[i].node});
     if (!is_there) found.steps.clear();
@@ -223,6 +233,7 @@ ObjectPath find_member(const Names& names, const std::string& path, const SceneC
 /// Whether an edit of the last member of a path changes this instance alone, without copies of combinations.
 bool is_alone(const Names& names, const std::vector<std::string>& rendered,
               const std::vector<ObjectPath::Step>& steps) {
+    if (steps.size() == 1) return true;
     const std::vector<std::uint32_t> users = users_of(names.scene(), names);
     if (users[steps.front().object] > 0) return false;
     for (std::size_t i = 1; i + 1 < steps.size(); ++i)
@@ -234,8 +245,9 @@ bool is_alone(const Names& names, const std::vector<std::string>& rendered,
     return true;
 }
 
-/// The last member of the steps of a path.
+/// The last member of the steps of a path, or its top object.
 Member member_of(const std::vector<ObjectPath::Step>& steps) {
+    if (steps.size() == 1) return {steps[0].object, Names::none};
     return {steps[steps.size() - 2].object, steps.back().node};
 }
 
@@ -277,7 +289,11 @@ void remove_member(Scene& scene, const std::string& path) {
 Scene changed_scene(const Scene& scene, const SceneChanges& changes) {
     Scene changed = scene;
     for (const auto& [member, matrix] : changes.matrices)
-        tree_of(changed, member.first).nodes[member.second].matrix = matrix;
+        if (member.second == Names::none) {
+            add_top(changed, name_of(scene.objects[member.first]), matrix);
+        } else {
+            tree_of(changed, member.first).nodes[member.second].matrix = matrix;
+        }
     if (changes.removed.empty()) return changed;
     const Names names(scene);
     if (changed.top.empty()) changed.top = names.top_objects();  // a removed object does not become a top object
@@ -289,7 +305,7 @@ Scene changed_scene(const Scene& scene, const SceneChanges& changes) {
 
 bool place_beside(const Names& names, const std::vector<std::string>& rendered, const std::string& path,
                   const Matrix& matrix, bool alone, SceneChanges& changes) {
-    const ObjectPath found = find_member(names, path, changes);
+    const ObjectPath found = find_member(names, rendered, path, changes);
     if (found.steps.empty() || (alone && !is_alone(names, rendered, found.steps))) return false;
     changes.matrices[member_of(found.steps)] = matrix;
     return true;
@@ -297,7 +313,7 @@ bool place_beside(const Names& names, const std::vector<std::string>& rendered, 
 
 bool move_beside(const Names& names, const std::vector<std::string>& rendered, const std::string& path,
                  const Matrix& matrix, bool alone, SceneChanges& changes) {
-    const ObjectPath found = find_member(names, path, changes);
+    const ObjectPath found = find_member(names, rendered, path, changes);
     if (found.steps.empty() || (alone && !is_alone(names, rendered, found.steps))) return false;
     const std::optional<Matrix> own = moved_matrix(names, found, matrix, changes.matrices);
     if (own) changes.matrices[member_of(found.steps)] = *own;
@@ -306,8 +322,8 @@ bool move_beside(const Names& names, const std::vector<std::string>& rendered, c
 
 bool remove_beside(const Names& names, const std::vector<std::string>& rendered, const std::string& path,
                    SceneChanges& changes) {
-    const std::vector<ObjectPath::Step> steps = find_member(names, path, changes).steps;
-    if (steps.empty()) return false;
+    const std::vector<ObjectPath::Step> steps = find_member(names, rendered, path, changes).steps;
+    if (steps.size() < 2) return false;
     const auto [parent, leaf] = member_of(steps);
     for (const std::string& root : rendered) {
         const std::vector<ObjectPath::Step> other = find_path(names.scene(), names, root).steps;

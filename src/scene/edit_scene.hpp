@@ -41,15 +41,15 @@ void erase_object(Scene& scene, const std::vector<std::string>& rendered, const 
 
 /// Changes that are kept beside a scene, so that the scene need not be copied.
 struct SceneChanges {
-    MemberMatrices matrices;   ///< replace the matrices of members
+    MemberMatrices matrices;   ///< replace the matrices of members and of top objects
     std::set<Member> removed;  ///< operands of unions, each of which keeps another operand
     bool operator==(const SceneChanges&) const = default;
 };
 /// Returns the scene with the changes.
 Scene changed_scene(const Scene& scene, const SceneChanges& changes);
 // The functions below add to `changes` what place_object(), move_object() and remove_member() change in a scene with
-// the changes. `names`: the names of the scene without them. False, and nothing has changed: the path leads to no
-// member, or the edit needs a copy of the scene.
+// the changes. `names`: the names of the scene without them. False, and nothing has changed: the path leads nowhere,
+// or the edit needs a copy of the scene.
 bool place_beside(const Names& names, const std::vector<std::string>& rendered, const std::string& path,
                   const Matrix& matrix, bool alone, SceneChanges& changes);
 bool move_beside(const Names& names, const std::vector<std::string>& rendered, const std::string& path,

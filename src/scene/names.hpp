@@ -18,7 +18,7 @@ namespace csgrt {
 /// "name@2": the second object with the name.
 std::string numbered(std::string name, std::uint32_t number);
 
-/// A leaf: a combination, and the node of its tree.
+/// A leaf: a combination, and the node of its tree. Or an object that is rendered by its name, and Names::none.
 using Member = std::pair<std::uint32_t, std::uint32_t>;
 /// Matrices that replace the matrices of leaves in a scene.
 using MemberMatrices = std::map<Member, Matrix>;
@@ -39,12 +39,15 @@ public:
         return std::get<Combination>(scene_.objects[object]).tree.nodes[node];
     }
     const Scene& scene() const { return scene_; }
-    /// The matrix of a leaf, or the matrix that replaces it in `moved`.
+    /// The matrix of a leaf, or of an object that is rendered by its name (Scene::top_matrices; else the identity); or
+    /// the matrix that replaces it in `moved`.
     const Matrix& matrix(std::uint32_t object, std::size_t node, const MemberMatrices& moved) const {
         if (!moved.empty())
             if (const auto found = moved.find(Member(object, static_cast<std::uint32_t>(node))); found != moved.end())
                 return found->second;
-        return this->node(object, node).matrix;
+        if (node != none) return this->node(object, node).matrix;
+        const auto found = top_.find(object);
+        return found == top_.end() ? identity : scene_.top_matrices[found->second];
     }
     const Matrix& matrix(std::uint32_t object, std::size_t node) const { return matrix(object, node, moved_); }
     /// The matrices that replace those of the scene.
@@ -58,11 +61,6 @@ public:
     }
     /// The node of the leaf with a name; Names::none if there is no such leaf.
     std::uint32_t member(std::uint32_t object, std::string_view name) const;
-    /// The matrix of an object that is rendered by its name (Scene::top_matrices); else the identity.
-    const Matrix& top_matrix(std::uint32_t object) const {
-        const auto found = top_.find(object);
-        return found == top_.end() ? identity : scene_.top_matrices[found->second];
-    }
     /// Whether different members may have the same path: a name holds a '/', or ends like a numbered name.
     bool has_ambiguous_names() const { return has_ambiguous_names_; }
     /// For each node of a combination's tree the object that it names: `operation` for an operator, `left_out` for a

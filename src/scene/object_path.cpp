@@ -186,7 +186,7 @@ Matrix placement_of(const Names& names, const ObjectPath& path, std::size_t step
 }
 
 const Matrix& matrix_of(const Names& names, const ObjectPath& path, std::size_t step, const MemberMatrices& moved) {
-    if (step == 0) return names.top_matrix(path.steps[0].object);
+    if (step == 0) return names.matrix(path.steps[0].object, Names::none, moved);
     return names.matrix(path.steps[step - 1].object, path.steps[step].node, moved);
 }
 

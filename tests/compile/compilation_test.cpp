@@ -122,6 +122,9 @@ private:
             if (const auto* combination = std::get_if<Combination>(&scene.objects[i]))
                 for (std::uint32_t k = 0; k < combination->tree.nodes.size(); ++k)
                     if (combination->tree.nodes[k].op == Operator::leaf) members.emplace_back(i, k);
+        const Names names(scene);
+        for (const std::string& top : names.top_objects())
+            for (int i = 0; i < 2; ++i) members.emplace_back(names.find(top), Names::none);
         matrices[members[below(members.size())]] = below(60) == 0 ? Matrix{} : some_matrix();
         if (below(10) == 0 && !matrices.empty()) matrices.erase(matrices.begin());
     }

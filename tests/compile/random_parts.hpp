@@ -69,6 +69,7 @@ public:
         }
         groups.push_back(op(Operator::union_, static_cast<std::uint32_t>(groups.size())));
         objects.push_back(group("all", std::move(groups)));
+        objects.push_back(group("spare", {leg("g" + std::to_string(below(3)), some_matrix())}));
         return made;
     }
 

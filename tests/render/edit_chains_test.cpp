@@ -126,6 +126,35 @@ TEST_CASE("chains of edits end in the models that are compiled from their scenes
     go(1000, 16);
 }
 
+TEST_CASE("an added part is dragged without compiling the scene again", "[promise:edits]") {
+    Scene scene;
+    scene.objects = {ball("far", {-40, -40, -40}), ball("farther", {40, 40, 40}), ball("ball", {0, 0, 0}),
+                     region("corners", {leg("far"), leg("farther"), op(Operator::union_, 2)}),
+                     group("all", {leg("corners"), leg("ball"), op(Operator::union_, 2)})};
+    const Model start = Edit(Model(scene)).add(Object(ball("lamp", {3, 0, 0})), true).commit();
+    Model model = start;
+    for (int i = 0; i < 6; ++i) {
+        const Model& from = i % 2 ? model : start;
+        const Model next =
+            Edit(from).set_matrix("/lamp", moved(i - 3, 0.5 * i, 0)).move("lamp", moved(0, 0, 1)).commit();
+        CHECK(&next.solids()[0] == &model.solids()[0]);
+        CHECK(next.matrix_of("/lamp") == moved(i - 3, 0.5 * i, 1));
+        CHECK(next.scene().top_matrices == std::vector{identity, moved(i - 3, 0.5 * i, 1)});
+        require_compiled_anew(next);
+        model = next;
+    }
+    // An object that the caller names moves by itself, and not where a combination uses it.
+    const std::vector<std::string> objects{"all", "corners"};
+    model = Model(scene, objects);
+    for (int i = 1; i < 4; ++i) {
+        model = Edit(model).move("corners", moved(0, 0, -0.25 * i)).commit();
+        require_same_models(model, Model(model.scene(), objects));
+    }
+    // Places need names: a scene whose top is a path has none.
+    scene.top = {"corners", "all/ball"};
+    CHECK_THROWS_AS(Edit(Model(scene)).set_matrix("corners", moved(0, 0, 1)).commit(), Error);
+}
+
 TEST_CASE("threads that edit one model at once get the models that are compiled from their scenes", "[promise:edits]") {
     const Model start(parse_scene(R"({"csgrt": 1,
         "solids": {"far": {"type": "sphere", "center": [-40, -40, -40], "radius": 1},

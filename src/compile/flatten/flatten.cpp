@@ -363,7 +363,8 @@ namespace {
 std::vector<std::uint32_t> regions_with(const FlatScene& flat, const std::vector<Member>& changed) {
     const auto& [source, found, uses] = *flat.walk;
     std::vector<bool> has(source.scene.objects.size());
-    for (const Member& member : changed) has[member.first] = true;
+    for (const Member& member : changed)
+        if (member.second != Names::none) has[member.first] = true;
     for (bool grows = true; grows;) {
         grows = false;
         for (std::uint32_t object = 0; object < has.size(); ++object) {

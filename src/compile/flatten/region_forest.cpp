@@ -44,7 +44,7 @@ RegionStart RegionForest::start_of(const ObjectPath& path) {
 }
 
 Matrix RegionForest::matrix_of(const RegionStart& start) const {
-    if (start.above == none) return source_.names.top_matrix(start.object);
+    if (start.above == none) return source_.names.matrix(start.object, Names::none);
     const Above& above = above_[start.above];
     return compose(above.matrix, source_.names.matrix(above.object, start.node));
 }
@@ -60,10 +60,10 @@ void RegionForest::place_again(const std::vector<Member>& changed) {
 }
 
 bool RegionForest::has_moved(const RegionStart& start) const {
-    if (start.above == none) return false;
-    const Above& above = above_[start.above];
-    return above.has_moved || (changed_users_[above.object] &&
-                               std::binary_search(changed_.begin(), changed_.end(), Member(above.object, start.node)));
+    const bool is_top = start.above == none;
+    if (!is_top && above_[start.above].has_moved) return true;
+    const Member member(is_top ? start.object : above_[start.above].object, is_top ? Names::none : start.node);
+    return changed_users_[member.first] && std::binary_search(changed_.begin(), changed_.end(), member);
 }
 
 bool RegionForest::any_start(std::uint32_t node, const std::function<bool(const RegionStart&)>& is) const {
