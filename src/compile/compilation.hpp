@@ -44,10 +44,10 @@ public:
 
 private:
     bool take_out(const SceneChanges& changes, std::vector<std::uint32_t>& regions);
-    bool place(const SceneChanges& changes, const std::vector<Member>& moved, std::vector<std::uint32_t>& regions);
+    bool place(const SceneChanges& changes, const ChangedMembers& moved, std::vector<std::uint32_t>& regions);
     bool number(const std::vector<std::uint32_t>& moved);
     void pack();
-    std::vector<Member> different(const MemberMatrices& a, const MemberMatrices& b) const;
+    void add_different(const MemberMatrices& a, const MemberMatrices& b, ChangedMembers& found) const;
 
     std::shared_ptr<const Scene> scene_;
     Names names_;

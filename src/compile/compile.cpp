@@ -158,26 +158,30 @@ void Compilation::pack() {
     compiled_.hash = hash_of(compiled_);
 }
 
-/// The members with other matrices in `b` than in `a`.
-std::vector<Member> Compilation::different(const MemberMatrices& a, const MemberMatrices& b) const {
-    std::vector<Member> found;
+/// Adds the members with other matrices in `b` than in `a`.
+void Compilation::add_different(const MemberMatrices& a, const MemberMatrices& b, ChangedMembers& found) const {
     const auto is_other = [&](const Member& member) {
         return !same_bits(names_.matrix(member.first, member.second, a), names_.matrix(member.first, member.second, b));
     };
-    for (const MemberMatrices* matrices : {&a, &b})
-        for (const auto& [member, matrix] : *matrices)
-            if (is_other(member)) found.push_back(member);
-    std::ranges::sort(found);
-    found.erase(std::unique(found.begin(), found.end()), found.end());
-    return found;
+    for (const MemberMatrices* matrices : {&a, &b}) {
+        const MemberMatrices& other = matrices == &a ? b : a;
+        for (const auto& [member, matrix] : matrices->all)
+            if (is_other(member)) found.all.push_back(member);
+        for (const auto& [path, matrix] : matrices->alone)
+            if (const auto known = other.alone.find(path);
+                known == other.alone.end() || !same_bits(known->second, matrix))
+                found.alone.push_back(path);
+    }
+    std::ranges::sort(found.all);
+    found.all.erase(std::unique(found.all.begin(), found.all.end()), found.all.end());
 }
 
 std::optional<CompiledScene> Compilation::with(const SceneChanges& changes, const CompiledScene& before,
                                                const SceneChanges& of_before) {
     // Also members whose matrices are right here, and not in `before`.
-    std::vector<Member> moved;
-    std::ranges::set_union(different(changes_.matrices, changes.matrices),
-                           different(of_before.matrices, changes.matrices), std::back_inserter(moved));
+    ChangedMembers moved;
+    add_different(changes_.matrices, changes.matrices, moved);
+    add_different(of_before.matrices, changes.matrices, moved);
     if (!is_local_ || changes_.removed != of_before.removed) return {};
     std::vector<std::uint32_t> gone, regions;
     if (!take_out(changes, gone) || !place(changes, moved, regions)) return {};
@@ -222,15 +226,18 @@ bool Compilation::take_out(const SceneChanges& changes, std::vector<std::uint32_
 }
 
 /// Compiles what stands elsewhere with other matrices of some members, and finds the regions that may have moved.
-bool Compilation::place(const SceneChanges& changes, const std::vector<Member>& members,
+bool Compilation::place(const SceneChanges& changes, const ChangedMembers& members,
                         std::vector<std::uint32_t>& regions) {
     bool is_sound = true;
-    for (const Member& member : members) {
-        const TreeNode node{.matrix = names_.matrix(member.first, member.second, changes.matrices)};
+    const auto check = [&](const Member& member, const Matrix& matrix) {
+        const TreeNode node{.matrix = matrix};
         check_matrix(node, [&](const Place&, const std::string&, const std::string&) { is_sound = false; });
         if (member.second != Names::none && names_.child(member.first, member.second) >= Names::left_out)
             is_sound = false;
-    }
+    };
+    for (const Member& member : members.all)
+        check(member, names_.matrix(member.first, member.second, changes.matrices));
+    for (const auto& [path, matrix] : changes.matrices.alone) check(path.back(), matrix);
     if (!is_sound) return false;
     changes_.matrices = changes.matrices;
     names_.set_matrices(changes.matrices);

@@ -23,7 +23,7 @@ struct Edit::Impl {
 
     Scene& changed() {
         if (!scene) {
-            scene = std::make_shared<Scene>(changed_scene(*source.scene, source.changes));
+            scene = std::make_shared<Scene>(changed_scene(*source.scene, source.changes, source.objects));
             source.changes = {};
             if (source.objects.empty()) scene->top = top_objects(*scene);  // so that no edit changes them
         }
@@ -275,7 +275,7 @@ Model Edit::commit() const {
         made = std::make_shared<Model::Impl>(std::move(source), std::move(painted), *edit.before);
     } else {
         std::shared_ptr<Scene> whole = edit.scene;
-        if (!whole) whole = std::make_shared<Scene>(changed_scene(*source.scene, source.changes));
+        if (!whole) whole = std::make_shared<Scene>(changed_scene(*source.scene, source.changes, source.objects));
         if (edit.scene && std::exchange(edit.is_given, true)) whole = std::make_shared<Scene>(*whole);
         source.changes = {};
         source.put_appearance(*whole);

@@ -140,7 +140,7 @@ const std::vector<Warning>& Model::warnings() const { return impl_->scene.warnin
 double Model::tolerance() const { return impl_->tolerance; }
 
 Scene Model::scene() const {
-    Scene scene = changed_scene(*impl_->source.scene, impl_->source.changes);
+    Scene scene = changed_scene(*impl_->source.scene, impl_->source.changes, impl_->source.objects);
     impl_->source.put_appearance(scene);
     return scene;
 }

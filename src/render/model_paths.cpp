@@ -41,8 +41,10 @@ const Names& Model::Impl::names() const {
     std::call_once(has_names_, [&] {
         const SceneChanges& changes = source.changes;
         // The name of a removed member may lead to another member now, so paths need a tree without removed members.
-        const bool has_trees = changes.removed.empty();
-        named_scene_ = has_trees ? source.scene : std::make_shared<const Scene>(changed_scene(*source.scene, changes));
+        // And copies of combinations have names of their own.
+        const bool has_trees = changes.removed.empty() && changes.matrices.alone.empty();
+        named_scene_ = has_trees ? source.scene
+                                 : std::make_shared<const Scene>(changed_scene(*source.scene, changes, source.objects));
         names_.emplace(*named_scene_);
         if (has_trees) names_->set_matrices(changes.matrices);
     });

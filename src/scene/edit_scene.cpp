@@ -230,19 +230,28 @@ ObjectPath find_member(const Names& names, const std::vector<std::string>& rende
     return found;
 }
 
-/// Whether an edit of the last member of a path changes this instance alone, without copies of combinations.
-bool is_alone(const Names& names, const std::vector<std::string>& rendered,
-              const std::vector<ObjectPath::Step>& steps) {
-    if (steps.size() == 1) return true;
+/// The first combination on the way to the last member of a path that has other instances. All below it have some, too.
+/// The number of the last step: an edit of this member changes this instance alone.
+std::size_t first_shared(const Names& names, const std::vector<std::string>& rendered,
+                         const std::vector<ObjectPath::Step>& steps) {
+    std::size_t end = steps.size() - 1;
+    if (end == 0) return end;
     const std::vector<std::uint32_t> users = users_of(names.scene(), names);
-    if (users[steps.front().object] > 0) return false;
-    for (std::size_t i = 1; i + 1 < steps.size(); ++i)
-        if (users[steps[i].object] > 1) return false;
+    if (users[steps.front().object] > 0) return 0;
+    for (std::size_t i = 1; i < end; ++i)
+        if (users[steps[i].object] > 1) end = i;
     for (const std::string& root : rendered)
         if (const ObjectPath other = find_path(names.scene(), names, root); !other.steps.empty())
-            for (std::size_t i = 1; i + 1 < steps.size(); ++i)
-                if (steps[i].object == other.object()) return false;
-    return true;
+            for (std::size_t i = 1; i < end; ++i)
+                if (steps[i].object == other.object()) end = i;
+    return end;
+}
+
+/// Whether a combination may have a copy: the matrix of an instance below it changes alone.
+bool may_have_copy(std::uint32_t object, const SceneChanges& changes) {
+    const auto is_it = [&](const Member& member) { return member.first == object; };
+    return std::ranges::any_of(changes.matrices.alone,
+                               [&](const auto& entry) { return std::ranges::any_of(entry.first, is_it); });
 }
 
 /// The last member of the steps of a path, or its top object.
@@ -286,14 +295,22 @@ void remove_member(Scene& scene, const std::string& path) {
     remove_leaves(scene, names, steps[steps.size() - 2].object, {steps.back().node});
 }
 
-Scene changed_scene(const Scene& scene, const SceneChanges& changes) {
+Scene changed_scene(const Scene& scene, const SceneChanges& changes, const std::vector<std::string>& objects) {
     Scene changed = scene;
-    for (const auto& [member, matrix] : changes.matrices)
+    for (const auto& [member, matrix] : changes.matrices.all)
         if (member.second == Names::none) {
             add_top(changed, name_of(scene.objects[member.first]), matrix);
         } else {
             tree_of(changed, member.first).nodes[member.second].matrix = matrix;
         }
+    if (!changes.matrices.alone.empty() && changed.top.empty()) changed.top = top_objects(changed);  // no copy is one
+    for (const auto& [members, matrix] : changes.matrices.alone) {
+        const Names names(changed);
+        std::vector<ObjectPath::Step> steps{{members.front().first, 0}};
+        for (const Member& member : members)
+            steps.push_back({names.child(steps.back().object, member.second), member.second});
+        place(changed, names, objects.empty() ? changed.top : objects, {}, steps, matrix, true);
+    }
     if (changes.removed.empty()) return changed;
     const Names names(scene);
     if (changed.top.empty()) changed.top = names.top_objects();  // a removed object does not become a top object
@@ -303,21 +320,41 @@ Scene changed_scene(const Scene& scene, const SceneChanges& changes) {
     return changed;
 }
 
+namespace {
+
+bool put_beside(const Names& names, const std::vector<std::string>& rendered, const ObjectPath& path,
+                const Matrix& matrix, bool alone, SceneChanges& changes) {
+    const std::vector<ObjectPath::Step>& steps = path.steps;
+    const Member member = member_of(steps);
+    const std::size_t last = steps.size() - 1, shared = first_shared(names, rendered, steps);
+    if (alone && shared < last) {
+        for (std::size_t i = 0; i < last; ++i) {
+            const auto removed = changes.removed.lower_bound({steps[i].object, 0});
+            const bool has_removed = removed != changes.removed.end() && removed->first == steps[i].object;
+            if (names.kind(steps[i].object) != Names::Kind::combination || (has_removed && i >= shared)) return false;
+        }
+        changes.matrices.alone[member_path(path, last)] = matrix;
+    } else {
+        if (shared < last && may_have_copy(member.first, changes)) return false;
+        changes.matrices.all[member] = matrix;
+    }
+    return true;
+}
+
+}  // namespace
+
 bool place_beside(const Names& names, const std::vector<std::string>& rendered, const std::string& path,
                   const Matrix& matrix, bool alone, SceneChanges& changes) {
     const ObjectPath found = find_member(names, rendered, path, changes);
-    if (found.steps.empty() || (alone && !is_alone(names, rendered, found.steps))) return false;
-    changes.matrices[member_of(found.steps)] = matrix;
-    return true;
+    return !found.steps.empty() && put_beside(names, rendered, found, matrix, alone, changes);
 }
 
 bool move_beside(const Names& names, const std::vector<std::string>& rendered, const std::string& path,
                  const Matrix& matrix, bool alone, SceneChanges& changes) {
     const ObjectPath found = find_member(names, rendered, path, changes);
-    if (found.steps.empty() || (alone && !is_alone(names, rendered, found.steps))) return false;
+    if (found.steps.empty()) return false;
     const std::optional<Matrix> own = moved_matrix(names, found, matrix, changes.matrices);
-    if (own) changes.matrices[member_of(found.steps)] = *own;
-    return own.has_value();
+    return own && put_beside(names, rendered, found, *own, alone, changes);
 }
 
 bool remove_beside(const Names& names, const std::vector<std::string>& rendered, const std::string& path,
@@ -335,7 +372,7 @@ bool remove_beside(const Names& names, const std::vector<std::string>& rendered,
         std::distance(changes.removed.lower_bound({parent, 0}), changes.removed.lower_bound({parent + 1, 0}));
     const std::size_t operands = nodes.size() - 1, left = operands - static_cast<std::size_t>(removed);
     const bool is_union = nodes.back().op == Operator::union_ && nodes.back().arity == operands;
-    if (!is_union || left < 2) return false;
+    if (!is_union || left < 2 || may_have_copy(parent, changes)) return false;
     changes.removed.insert({parent, leaf});
     return true;
 }

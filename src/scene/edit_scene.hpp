@@ -45,8 +45,8 @@ struct SceneChanges {
     std::set<Member> removed;  ///< operands of unions, each of which keeps another operand
     bool operator==(const SceneChanges&) const = default;
 };
-/// Returns the scene with the changes.
-Scene changed_scene(const Scene& scene, const SceneChanges& changes);
+/// Returns the scene with the changes. `objects`: what is rendered (empty: the top objects).
+Scene changed_scene(const Scene& scene, const SceneChanges& changes, const std::vector<std::string>& objects = {});
 // The functions below add to `changes` what place_object(), move_object() and remove_member() change in a scene with
 // the changes. `names`: the names of the scene without them. False, and nothing has changed: the path leads nowhere,
 // or the edit needs a copy of the scene.

@@ -20,8 +20,14 @@ std::string numbered(std::string name, std::uint32_t number);
 
 /// A leaf: a combination, and the node of its tree. Or an object that is rendered by its name, and Names::none.
 using Member = std::pair<std::uint32_t, std::uint32_t>;
+/// The members on the way from an object down to one instance of another object.
+using MemberPath = std::vector<Member>;
 /// Matrices that replace the matrices of leaves in a scene.
-using MemberMatrices = std::map<Member, Matrix>;
+struct MemberMatrices {
+    std::map<Member, Matrix> all;        ///< in all instances of the combination
+    std::map<MemberPath, Matrix> alone;  ///< of the path's last member, in this instance alone
+    bool operator==(const MemberMatrices&) const = default;
+};
 
 /// An index of names. The scene must not change or be destroyed while the index is used.
 class Names {
@@ -40,10 +46,11 @@ public:
     }
     const Scene& scene() const { return scene_; }
     /// The matrix of a leaf, or of an object that is rendered by its name (Scene::top_matrices; else the identity); or
-    /// the matrix that replaces it in `moved`.
+    /// the matrix that replaces it in all instances.
     const Matrix& matrix(std::uint32_t object, std::size_t node, const MemberMatrices& moved) const {
-        if (!moved.empty())
-            if (const auto found = moved.find(Member(object, static_cast<std::uint32_t>(node))); found != moved.end())
+        if (!moved.all.empty())
+            if (const auto found = moved.all.find(Member(object, static_cast<std::uint32_t>(node)));
+                found != moved.all.end())
                 return found->second;
         if (node != none) return this->node(object, node).matrix;
         const auto found = top_.find(object);

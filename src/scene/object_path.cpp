@@ -177,6 +177,12 @@ std::string normal_path(const std::string& path) {
     return "/" + std::string(bare_path(path));
 }
 
+MemberPath member_path(const ObjectPath& path, std::size_t step) {
+    MemberPath members;
+    for (std::size_t i = 0; i < step; ++i) members.emplace_back(path.steps[i].object, path.steps[i + 1].node);
+    return members;
+}
+
 const Matrix& matrix_of(const Names& names, const ObjectPath& path, std::size_t step) {
     return matrix_of(names, path, step, names.moved());
 }
@@ -187,6 +193,8 @@ Matrix placement_of(const Names& names, const ObjectPath& path, std::size_t step
 
 const Matrix& matrix_of(const Names& names, const ObjectPath& path, std::size_t step, const MemberMatrices& moved) {
     if (step == 0) return names.matrix(path.steps[0].object, Names::none, moved);
+    if (!moved.alone.empty())
+        if (const auto own = moved.alone.find(member_path(path, step)); own != moved.alone.end()) return own->second;
     return names.matrix(path.steps[step - 1].object, path.steps[step].node, moved);
 }
 

@@ -43,6 +43,9 @@ inline bool is_at_or_below(std::string_view region, std::string_view path) {
     return path == "/" || (region.starts_with(path) && (region.size() == path.size() || region[path.size()] == '/'));
 }
 
+/// The members on the way down to step `step` of a path.
+MemberPath member_path(const ObjectPath& path, std::size_t step);
+
 /// The matrix of the member at step `step` of a path, in the tree of the step before; at step 0 the matrix of a top
 /// object.
 const Matrix& matrix_of(const Names& names, const ObjectPath& path, std::size_t step);

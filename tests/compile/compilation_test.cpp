@@ -76,7 +76,7 @@ public:
         };
         begin();
         for (int i = 0; i < steps; ++i) {
-            for (unsigned n = 0; n <= below(2); ++n) below(6) == 0 ? remove_some(*scene, now) : move_some(*scene, now);
+            for (unsigned n = 0; n <= below(2); ++n) edit_some(*scene, now);
             const Scene placed = changed_scene(*scene, now);
             std::optional<CompiledScene> anew;
             try {
@@ -101,7 +101,29 @@ public:
         }
     }
 
+    int has_alone = 0;
+
 private:
+    void edit_some(const Scene& scene, SceneChanges& changes) {
+        const unsigned kind = below(6);
+        if (kind == 0) remove_some(scene, changes);
+        if (kind == 1) move_one(scene, changes);
+        if (kind > 1) move_some(scene, changes);
+    }
+
+    /// Moves one instance of a region that may have several.
+    void move_one(const Scene& scene, SceneChanges& changes) {
+        const Names names(scene);
+        const std::vector<std::string> top = names.top_objects();
+        std::string path = top[below(top.size())];
+        for (std::uint32_t object = names.find(path); names.kind(object) == Names::Kind::combination;) {
+            const std::uint32_t leaf = below(std::max<std::size_t>(names.children(object).size() - 1, 1));
+            path += "/" + names.member_name(object, leaf);
+            object = names.child(object, leaf);
+        }
+        if (place_beside(names, top, path, some_matrix(), true, changes)) has_alone += !changes.matrices.alone.empty();
+    }
+
     void remove_some(const Scene& scene, SceneChanges& changes) {
         const Names names(scene);
         for (int i = 0; i < 10; ++i) {
@@ -116,7 +138,7 @@ private:
     }
 
     void move_some(const Scene& scene, SceneChanges& changes) {
-        MemberMatrices& matrices = changes.matrices;
+        std::map<Member, Matrix>& matrices = changes.matrices.all;
         std::vector<Member> members;
         for (std::uint32_t i = 0; i < scene.objects.size(); ++i)
             if (const auto* combination = std::get_if<Combination>(&scene.objects[i]))
@@ -131,16 +153,19 @@ private:
 };
 
 void go(int chains, int steps) {
-    int local = 0, whole = 0, taken_out = 0;
+    int local = 0, whole = 0, taken_out = 0, alone = 0;
     for (int seed = 0; seed < chains; ++seed) {
         INFO("chain " << seed);
-        Chain(static_cast<unsigned>(seed)).go(steps, local, whole, taken_out);
+        Chain chain(static_cast<unsigned>(seed));
+        chain.go(steps, local, whole, taken_out);
+        alone += chain.has_alone;
     }
-    CAPTURE(local, whole, taken_out);
+    CAPTURE(local, whole, taken_out, alone);
     if (sanitized) return;  // too few chains to count
     CHECK(3 * local > whole);
     CHECK(whole > 0);
     CHECK(20 * taken_out > local);
+    CHECK(20 * alone > local);
 }
 
 }  // namespace
@@ -158,7 +183,7 @@ TEST_CASE("a solid that is left out comes back when a matrix changes", "[promise
     const CompiledScene before = compilation.compiled();
     REQUIRE(before.region_info.size() == 1);
     SceneChanges changes;
-    changes.matrices[{3, 0}] = moved(-far, 0, 0);
+    changes.matrices.all[{3, 0}] = moved(-far, 0, 0);
     const std::optional<CompiledScene> made_local = compilation.with(changes, before, {});
     if (made_local) require_same(*made_local, compile(changed_scene(*scene, changes)));
     CHECK(compile(changed_scene(*scene, changes)).region_info.size() == 2);

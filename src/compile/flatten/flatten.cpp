@@ -360,10 +360,10 @@ FlatScene flatten(const Scene& scene, const Names& names, const std::vector<std:
 namespace {
 
 /// The regions to which changed members lead, or which have them.
-std::vector<std::uint32_t> regions_with(const FlatScene& flat, const std::vector<Member>& changed) {
+std::vector<std::uint32_t> regions_with(const FlatScene& flat, const ChangedMembers& changed) {
     const auto& [source, found, uses] = *flat.walk;
     std::vector<bool> has(source.scene.objects.size());
-    for (const Member& member : changed)
+    for (const Member& member : changed.all)
         if (member.second != Names::none) has[member.first] = true;
     for (bool grows = true; grows;) {
         grows = false;
@@ -414,7 +414,7 @@ bool has_equal(const FlatScene& flat, const std::vector<std::uint32_t>& moved) {
 
 }  // namespace
 
-std::optional<Moved> place_again(FlatScene& flat, const std::vector<Member>& changed) {
+std::optional<Moved> place_again(FlatScene& flat, const ChangedMembers& changed) {
     auto& [source, found, uses] = *flat.walk;
     Moved moved;
     moved.regions = regions_with(flat, changed);
@@ -455,7 +455,7 @@ std::optional<Moved> place_again(FlatScene& flat, const std::vector<Member>& cha
 std::optional<Moved> take_out(FlatScene& flat, const std::vector<Member>& removed) {
     auto& [source, found, uses] = *flat.walk;
     Moved gone;
-    gone.regions = regions_with(flat, removed);
+    gone.regions = regions_with(flat, {removed, {}});
     if (gone.regions.size() == flat.regions.size()) return {};
     count_uses(flat);
     for (const std::uint32_t region : gone.regions) {

@@ -53,14 +53,20 @@ const std::vector<Plane>& cuts_of(const FlatScene& flat, const Instance& instanc
 FlatScene flatten(const Scene& scene, const Names& names, const std::vector<std::uint64_t>& instances,
                   const std::vector<std::string>& objects, bool air, std::uint64_t max_instances = 0);
 
+/// Members whose matrices have changed, in all instances of their combinations (sorted), or in one instance.
+struct ChangedMembers {
+    std::vector<Member> all;
+    std::vector<MemberPath> alone;
+};
+
 /// The instances that have other matrices, and all regions that may use these instances.
 struct Moved {
     std::vector<std::uint32_t> instances, regions;
 };
-/// Gives the instances their matrices again, when those of some members have changed in the Names. `changed` is sorted.
-/// The arguments of flatten() must still be there. Nothing: the scene has to be flattened anew, since other instances
-/// are equal now, or much has moved; the flattened scene is of no use any more.
-std::optional<Moved> place_again(FlatScene& flat, const std::vector<Member>& changed);
+/// Gives the instances their matrices again, when those of some members have changed in the Names. The arguments of
+/// flatten() must still be there. Nothing: the scene has to be flattened anew, since other instances are equal now, or
+/// much has moved; the flattened scene is of no use any more.
+std::optional<Moved> place_again(FlatScene& flat, const ChangedMembers& changed);
 
 /// Takes out the regions to which some members lead, which are operands of unions, and returns their numbers and those
 /// of their instances, both ascending; the instances keep their places. `removed` is sorted. Nothing: as above; also if

@@ -46,12 +46,23 @@ RegionStart RegionForest::start_of(const ObjectPath& path) {
 Matrix RegionForest::matrix_of(const RegionStart& start) const {
     if (start.above == none) return source_.names.matrix(start.object, Names::none);
     const Above& above = above_[start.above];
-    return compose(above.matrix, source_.names.matrix(above.object, start.node));
+    const std::map<MemberPath, Matrix>& alone = source_.names.moved().alone;
+    const auto own = alone.empty() ? alone.end() : alone.find(members_to(start));
+    return compose(above.matrix, own != alone.end() ? own->second : source_.names.matrix(above.object, start.node));
 }
 
-void RegionForest::place_again(const std::vector<Member>& changed) {
+MemberPath RegionForest::members_to(RegionStart start) const {
+    MemberPath members;
+    for (; start.above != none; start = above_[start.above].start)
+        members.emplace_back(above_[start.above].object, start.node);
+    std::ranges::reverse(members);
+    return members;
+}
+
+void RegionForest::place_again(const ChangedMembers& changed) {
     changed_users_.assign(source_.scene.objects.size(), false);
-    for (const Member& member : changed) changed_users_[member.first] = true;
+    for (const Member& member : changed.all) changed_users_[member.first] = true;
+    for (const MemberPath& path : changed.alone) changed_users_[path.back().first] = true;
     changed_ = changed;
     for (Above& above : above_) {
         above.has_moved = has_moved(above.start);
@@ -63,7 +74,10 @@ bool RegionForest::has_moved(const RegionStart& start) const {
     const bool is_top = start.above == none;
     if (!is_top && above_[start.above].has_moved) return true;
     const Member member(is_top ? start.object : above_[start.above].object, is_top ? Names::none : start.node);
-    return changed_users_[member.first] && std::binary_search(changed_.begin(), changed_.end(), member);
+    return changed_users_[member.first] && (std::ranges::binary_search(changed_.all, member) ||
+                                            std::ranges::any_of(changed_.alone, [&](const MemberPath& path) {
+                                                return path.back() == member && path == members_to(start);
+                                            }));
 }
 
 bool RegionForest::any_start(std::uint32_t node, const std::function<bool(const RegionStart&)>& is) const {

@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "compile/flatten/attributes.hpp"
+#include "compile/flatten/flatten.hpp"
 #include "compile/flatten/fold.hpp"
 #include "scene/names.hpp"
 #include "scene/object_path.hpp"
@@ -91,8 +92,8 @@ public:
     /// not stored: the threads that need them compute them, since only one thread walks.
     Matrix matrix_of(const RegionStart& start) const;
     Attributes attributes_of(const RegionStart& start) const;
-    /// Places the combinations above regions again, when the matrices of some members, which are sorted, have changed.
-    void place_again(const std::vector<Member>& changed);
+    /// Places the combinations above regions again, when the matrices of some members have changed.
+    void place_again(const ChangedMembers& changed);
     /// Whether one of these members leads to the start.
     bool has_moved(const RegionStart& start) const;
     /// Whether `is` holds for a start of a term.
@@ -156,7 +157,9 @@ private:
     std::vector<std::string> air_regions_;
     std::uint64_t air_path_bytes_ = 0;
     bool has_equal_paths_ = false;
-    std::vector<Member> changed_;
+    MemberPath members_to(RegionStart start) const;
+
+    ChangedMembers changed_;
     std::vector<bool> changed_users_;  ///< one an object: whether it has such a member
 };
 
