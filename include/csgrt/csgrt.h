@@ -830,6 +830,10 @@ typedef struct csgrt_measure_request {
     /// Densities of the regions; if empty, there are no masses.
     const csgrt_density* densities;
     size_t density_count;
+    /// The smallest wall of each region is searched.
+    int walls;
+    /// Millimetres: regions with a thinner wall are counted. 0: none is.
+    double wall_limit;
 } csgrt_measure_request;
 
 /// A number, and half the width of its 95 % interval.
@@ -858,6 +862,11 @@ typedef struct csgrt_measured {
     csgrt_box box;                                 ///< millimetres; holds the regions
     uint64_t regions, reached, unmet, weightless;  ///< numbers of regions
     double unmet_bound;                            ///< mm^3: what unmet regions may have at most
+    uint64_t thin;                                 ///< number of regions with a wall below the limit
+    double wall;                                   ///< millimetres: the smallest wall; 0: none, or not asked for
+    csgrt_vec3 wall_from, wall_to;                 ///< its ends
+    int is_tapered;                                ///< whether its faces are not parallel there
+    double wall_shares[32];                        ///< of the boundary: walls of 2^(i - 16) to 2^(i - 15) mm
 } csgrt_measured;
 
 /// The members of csgrt::Measurement besides its parts.
@@ -938,10 +947,11 @@ CSGRT_API void csgrt_measurement_init(csgrt_measurement* measurement);
 #define CSGRT_IMAGE_INFO {sizeof(csgrt_image_info), 0, 0, 0, 0}
 #define CSGRT_PICK {sizeof(csgrt_pick), -1, -1, 0, {0, 0, 0}, {0, 0, 0}, {{0, 0, 0}, {0, 0, 0}}}
 #define CSGRT_VERIFICATION {sizeof(csgrt_verification), "", 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, {{0, 0, 0}, {0, 0, 0}}}
-#define CSGRT_MEASURE_REQUEST {sizeof(csgrt_measure_request), 0.01, 0, 0, 0, 1, NULL, 0}
+#define CSGRT_MEASURE_REQUEST {sizeof(csgrt_measure_request), 0.01, 0, 0, 0, 1, NULL, 0, 0, 0}
 #define CSGRT_MEASURED {sizeof(csgrt_measured), 0, "", -1, {0, 0}, {0, 0}, {0, 0}, {0, 0}, \
     {{0, 0}, {0, 0}, {0, 0}}, {{0, 0}, {0, 0}, {0, 0}, {0, 0}, {0, 0}, {0, 0}}, \
-    {{0, 0}, {0, 0}, {0, 0}, {0, 0}, {0, 0}, {0, 0}}, {{0, 0, 0}, {0, 0, 0}}, 0, 0, 0, 0, 0}
+    {{0, 0}, {0, 0}, {0, 0}, {0, 0}, {0, 0}, {0, 0}}, {{0, 0, 0}, {0, 0, 0}}, 0, 0, 0, 0, 0, \
+    0, 0, {0, 0, 0}, {0, 0, 0}, 0, {0}}
 #define CSGRT_MEASUREMENT {sizeof(csgrt_measurement), 0, 0, 0, 0, 0}
 // clang-format on
 

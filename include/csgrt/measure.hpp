@@ -54,11 +54,23 @@ struct MeasureRequest {
     /// Seed of the random numbers.
     std::uint64_t seed = 1;
     std::vector<Density> densities = {};  ///< Densities of the regions; if empty, there are no masses.
+    bool walls = false;                   ///< The smallest wall of each region is searched.
+    double wall_limit = 0;                ///< Millimetres: regions with a thinner wall are counted. 0: none is.
 };
 
 /// A number, and half the width of its 95 % interval.
 struct Estimate {
     double value = 0, half_width = 0;
+};
+
+/// The smallest wall that was found: from a face, along its inward normal, to a face that looks away within 30 degrees.
+struct Wall {
+    double thickness = 0;     ///< millimetres; 0: there is no wall
+    Vec3 from = {}, to = {};  ///< its ends
+    /// Whether its faces are not parallel there. Then the thickness depends on the angle of 30 degrees.
+    bool is_tapered = false;
+    /// The shares of the boundary whose walls are of 2^(i - 16) to 2^(i - 15) mm, as rays near the normals saw them.
+    std::array<double, 32> shares = {};
 };
 
 enum class MeasuredKind : std::uint8_t { all, assembly, material, region };
@@ -84,6 +96,8 @@ struct Measured {
     std::uint64_t reached = 0;              ///< number of regions that have reached the request's error
     std::uint64_t unmet = 0;                ///< number of regions that no ray has met
     std::uint64_t weightless = 0;           ///< number of regions without a density
+    std::uint64_t thin = 0;                 ///< number of regions with a wall below the request's limit
+    Wall wall = {};                         ///< the smallest wall, if the request asks for walls
     double unmet_bound = 0;                 ///< mm³: what the unmet regions may have at most (95 %)
 };
 

@@ -18,7 +18,7 @@ from ._scene import Scene, Subtree, load, parse
 from ._solids import Part, box, cone, cylinder, rotate, scale, solid, sphere, torus, translate
 from ._values import (
     Child, Device, DeviceName, Diagnostic, Error, Estimate, Hits, Material, Measured, Measurement, Partitions, Pick,
-    Place, Region, Regions, SceneWarning, Solid, Verification, Warning,
+    Place, Region, Regions, SceneWarning, Solid, Verification, Wall, Warning,
 )
 
 
@@ -30,7 +30,7 @@ def devices() -> list[Device]:
 __all__ = [
     "Camera", "Child", "Device", "DeviceName", "Diagnostic", "Error", "Estimate", "Hits", "Image", "Material",
     "MeasureRequest", "Measured", "Measurement", "Page", "Part", "Partitions", "Pick", "Place", "Region", "Regions",
-    "Scene", "SceneWarning", "Settings", "Solid", "Subtree", "Verification", "View", "Warning", "box", "cone",
+    "Scene", "SceneWarning", "Settings", "Solid", "Subtree", "Verification", "View", "Wall", "Warning", "box", "cone",
     "cylinder", "devices", "load", "parse", "rays_parallel", "rays_pinhole", "rotate", "scale", "solid", "sphere",
     "torus", "translate",
 ]

@@ -299,6 +299,18 @@ class Estimate(NamedTuple):
 _describe(Estimate)
 
 
+class Wall(NamedTuple):
+    """The smallest wall of a part: thickness in mm, its ends, and whether its faces are not parallel there."""
+
+    thickness: float
+    start: Triple
+    end: Triple
+    is_tapered: bool
+
+
+_describe(Wall)
+
+
 class Measured(NamedTuple):
     """The figures of one region, or of several together.
 
@@ -307,7 +319,8 @@ class Measured(NamedTuple):
     area: mm^2; mass: kg, 0 without densities; centroid: x, y, z, mm. origin, central: moments xx, yy, zz and products
     xy, yz, zx of inertia about the origin and the centroid: kg mm^2, without densities mm^5. box: (low, high), mm.
     regions, reached, unmet, weightless: numbers of regions: all, those that have reached the error, those that no ray
-    has met, those without a density. unmet_bound: mm^3, what the unmet ones may have at most.
+    has met, those without a density. unmet_bound: mm^3, what the unmet ones may have at most. thin: the number of
+    regions with a wall below wall_limit. wall: the smallest wall, if walls=True; None: there is none.
     """
 
     kind: str
@@ -326,6 +339,8 @@ class Measured(NamedTuple):
     unmet: int
     weightless: int
     unmet_bound: float
+    thin: int
+    wall: Wall | None
 
 
 _describe(Measured)
@@ -343,8 +358,9 @@ class Measurement:
             return tuple(Estimate(*pair) for pair in pairs)
 
         self.parts: list[Measured] = [
-            Measured._make((kind, name, number, *estimates(figures), *map(estimates, moments), *rest))
-            for kind, name, number, figures, moments, *rest in rows]
+            Measured._make((kind, name, number, *estimates(figures), *map(estimates, moments), *rest,
+                            Wall(*wall) if wall else None))
+            for kind, name, number, figures, moments, *rest, wall in rows]
         self.has_densities: bool = has_densities
         self.reached: bool = reached
         self.rays: int = rays

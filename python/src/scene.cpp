@@ -393,6 +393,11 @@ Figures verify(LiveScene& scene, std::size_t rays, std::uint64_t seed) {
     return figures;
 }
 
+nb::object wall_row(const Wall& wall) {
+    if (wall.thickness == 0) return nb::none();
+    return nb::make_tuple(wall.thickness, wall.from, wall.to, wall.is_tapered);
+}
+
 /// The members of csgrt.Measurement, with a row for each part.
 Row measurement(LiveScene& scene, const MeasureRequest& request) {
     const Measurement result = scene.measure(request);
@@ -404,10 +409,10 @@ Row measurement(LiveScene& scene, const MeasureRequest& request) {
     constexpr const char* kinds[] = {"all", "assembly", "material", "region"};
     Rows parts;
     for (const Measured& m : result.parts)
-        parts.append(nb::make_tuple(kinds[static_cast<int>(m.kind)], m.name, m.id,
-                                    pairs(std::array{m.volume, m.claimed, m.area, m.mass}),
-                                    nb::make_tuple(pairs(m.centroid), pairs(m.origin), pairs(m.central)), m.box,
-                                    m.regions, m.reached, m.unmet, m.weightless, m.unmet_bound));
+        parts.append(nb::make_tuple(
+            kinds[static_cast<int>(m.kind)], m.name, m.id, pairs(std::array{m.volume, m.claimed, m.area, m.mass}),
+            nb::make_tuple(pairs(m.centroid), pairs(m.origin), pairs(m.central)), m.box, m.regions, m.reached, m.unmet,
+            m.weightless, m.unmet_bound, m.thin, wall_row(m.wall)));
     return nb::make_tuple(parts, result.has_densities, result.reached, result.rays, result.seconds);
 }
 

@@ -10,6 +10,7 @@
 
 #include "analysis/estimates.hpp"
 #include "analysis/frame.hpp"
+#include "analysis/walls.hpp"
 #include "base/floating_point.hpp"
 #include "base/parallel.hpp"
 
@@ -51,6 +52,13 @@ struct Piece {
     bool ends_job = false;
 };
 
+/// What a piece's rays have found of a region.
+struct Found {
+    std::int32_t region = 0;
+    Sums sums = {};
+    Chords chords = {};
+};
+
 struct Region {
     Box box = {};
     Vec3 middle = {};
@@ -77,6 +85,7 @@ void check(const MeasureRequest& request) {
     if (!(request.rel_error > 0)) refuse("the relative error of a measure must be greater than 0");
     if (!(request.abs_error >= 0)) refuse("the absolute error of a measure must be 0 or more");
     if (!(request.time >= 0)) refuse("the time of a measure must be 0 or more");
+    if (!(request.wall_limit >= 0)) refuse("the limit of walls must be 0 mm or more");
     if (request.rays > 1'000'000'000'000) refuse("a measure traces 1,000,000,000,000 rays at most");
     for (const Density& row : request.densities)
         if (!(row.density >= 0 && std::isfinite(row.density)))
@@ -125,8 +134,10 @@ struct Measurer::Impl {
     std::vector<Region> regions;
 
     MeasureRequest request;
-    double global_rays = 0;    ///< of a grid
-    std::vector<Sums> global;  ///< of each region and replicate
+    double global_rays = 0;          ///< of a grid
+    std::vector<Sums> global;        ///< of each region and replicate
+    std::vector<Chords> all_chords;  ///< of each region, if walls are searched
+    std::vector<Wall> walls;         ///< of each region, at the end
     std::uint32_t global_levels = 0;
     std::uint64_t traced = 0;
     Clock::time_point start, looked;
@@ -196,10 +207,14 @@ struct Measurer::Impl {
         return name;
     }
 
+    /// Rounding must not make a wall of the limit's own thickness a thin one.
+    bool is_thin(const Wall& wall) const {
+        return wall.thickness > 0 && wall.thickness < request.wall_limit * (1 - 1e-9);
+    }
+
     // ---- Rays ----
 
-    void sum_piece(const Piece& p, const Grid& grid, std::size_t first_ray,
-                   std::vector<std::pair<std::int32_t, Sums>>& found) const;
+    void sum_piece(const Piece& p, const Grid& grid, std::size_t first_ray, std::vector<Found>& found) const;
     void flush(std::vector<Piece>& pieces, std::vector<Grid>& all_grids);
     void commit(Job& job);
     bool trace(std::vector<Job>& jobs, const std::function<bool()>& go_on);
@@ -209,18 +224,18 @@ struct Measurer::Impl {
 
 /// Sums a piece's rays, region by region in the order in which they are met.
 void Measurer::Impl::sum_piece(const Piece& p, const Grid& grid, std::size_t first_ray,
-                               std::vector<std::pair<std::int32_t, Sums>>& found) const {
+                               std::vector<Found>& found) const {
     const std::int32_t wanted = p.job->region;
     std::vector<std::int32_t> place(wanted == everything ? regions.size() : 0, -1);
-    if (wanted != everything) found.push_back({wanted, {}});
-    const auto sums_of = [&](std::int32_t r) -> Sums& {
-        if (wanted != everything) return found[0].second;
+    if (wanted != everything) found.push_back({wanted});
+    const auto found_of = [&](std::int32_t r) -> Found& {
+        if (wanted != everything) return found[0];
         std::int32_t& at = place[static_cast<std::size_t>(r)];
         if (at < 0) {
             at = static_cast<std::int32_t>(found.size());
-            found.push_back({r, {}});
+            found.push_back({r});
         }
-        return found[static_cast<std::size_t>(at)].second;
+        return found[static_cast<std::size_t>(at)];
     };
     const Vec3 d = grid.direction;
     for (std::uint64_t i = 0; i < p.count; ++i) {
@@ -233,9 +248,17 @@ void Measurer::Impl::sum_piece(const Piece& p, const Grid& grid, std::size_t fir
             const std::int32_t r = rows.region_ids[row];
             if (wanted != everything && r != wanted) continue;
             const double in = rows.t_in[row], out = rows.t_out[row];
-            Sums& sums = sums_of(r);
+            const Vec3 n = rows.in_normals[row], m = rows.out_normals[row];
+            Found& of = found_of(r);
+            Sums& sums = of.sums;
             sums.add(out - in, origin - regions[static_cast<std::size_t>(r)].middle + 0.5 * (in + out) * d, d);
-            sums.area += std::abs(dot(rows.in_normals[row], d)) + std::abs(dot(rows.out_normals[row], d));
+            const double slope = std::abs(dot(n, d)), end_slope = std::abs(dot(m, d));
+            sums.area += slope + end_slope;
+            if (!request.walls || std::min({slope, end_slope, -dot(n, m)}) < cos_of_walls) continue;
+            const double size = (out - in) * std::min(slope, end_slope) / -dot(n, m);
+            of.chords.add({size, origin + in * d, origin + out * d, n, m,
+                           std::minmax(rows.in_solids[row], rows.out_solids[row])});
+            of.chords.add_area(size, slope + end_slope);
         }
         for (auto k = static_cast<std::size_t>(rows.overlap_splits[ray]);
              k < static_cast<std::size_t>(rows.overlap_splits[ray + 1]); ++k) {
@@ -244,7 +267,7 @@ void Measurer::Impl::sum_piece(const Piece& p, const Grid& grid, std::size_t fir
             for (auto c = static_cast<std::size_t>(rows.overlap_region_splits[k]) + 1;
                  c < static_cast<std::size_t>(rows.overlap_region_splits[k + 1]); ++c) {
                 const std::int32_t r = rows.overlap_region_ids[c];
-                if (wanted == everything || r == wanted) sums_of(r).others += overlap;
+                if (wanted == everything || r == wanted) found_of(r).sums.others += overlap;
             }
         }
     }
@@ -270,9 +293,9 @@ void Measurer::Impl::flush(std::vector<Piece>& pieces, std::vector<Grid>& all_gr
             }
         }
     });
-    renderer.partitions(rays, rows, {.normals = true, .overlaps = true}, {.each = ranges});
+    renderer.partitions(rays, rows, {.solids = request.walls, .normals = true, .overlaps = true}, {.each = ranges});
     traced += count;
-    std::vector<std::vector<std::pair<std::int32_t, Sums>>> found(pieces.size());
+    std::vector<std::vector<Found>> found(pieces.size());
     for_chunks(pieces.size(), few, threads, [&](std::size_t first, std::size_t last, std::size_t) {
         for (std::size_t i = first; i < last; ++i) sum_piece(pieces[i], all_grids[pieces[i].grid], firsts[i], found[i]);
     });
@@ -280,10 +303,11 @@ void Measurer::Impl::flush(std::vector<Piece>& pieces, std::vector<Grid>& all_gr
         Job& job = *pieces[i].job;
         const double cell = all_grids[pieces[i].grid].cell;
         const std::size_t replicate = pieces[i].replicate - job.first;
-        for (const auto& [r, sums] : found[i]) {
+        for (const auto& [r, sums, chords] : found[i]) {
             const std::size_t at =
                 job.region == everything ? static_cast<std::size_t>(r) * least_batches + replicate : replicate;
             job.sums[at].add(sums, cell / grids, cell);
+            if (request.walls) all_chords[static_cast<std::size_t>(r)].add(chords, cell * job.rays);
         }
         if (pieces[i].ends_job) commit(job);
     }
@@ -293,18 +317,27 @@ void Measurer::Impl::flush(std::vector<Piece>& pieces, std::vector<Grid>& all_gr
 
 /// Takes the sums of a job whose rays all are traced.
 void Measurer::Impl::commit(Job& job) {
+    const std::vector<Sums> sums = std::move(job.sums);
     if (job.region == everything) {
-        global = std::move(job.sums);
+        global = sums;
         global_rays = job.rays;
         return;
     }
     Region& region = regions[static_cast<std::size_t>(job.region)];
-    if (job.first == 0) region.own.clear();
+    double by = 1;
+    if (job.first == 0) {
+        // The last grids still count, by the variance that errors of rays^-0.75 have.
+        const bool goes_in = region.replicates == least_batches;
+        const double before = goes_in ? std::pow(region.own_rays, 1.5) : 0;
+        by = std::pow(job.rays, 1.5) / (before + std::pow(job.rays, 1.5));
+        if (!goes_in) region.own.clear();
+        for (Sums& earlier : region.own) earlier = earlier.scaled(1 - by);
+    }
     region.own_rays = job.rays;
     region.replicates = job.last;
     region.own.resize(std::min<std::size_t>(most_batches, job.last));
     for (std::uint32_t i = job.first; i < job.last; ++i)
-        region.own[i % region.own.size()].add(job.sums[i - job.first], 1, 1);
+        region.own[i % region.own.size()].add(sums[i - job.first], by, by);
 }
 
 /// Traces jobs one after the other. Returns false if it ends before all are done.
@@ -356,10 +389,10 @@ std::vector<Job> Measurer::Impl::plan() {
         const double share = region.surface / all_surface;
         const double rays = has_own ? region.own_rays : global_rays * share;
         // Errors shrink as rays^-1 (smooth parts) to rays^-0.5 (thin ones). The first guess is the better one: if it is
-        // wrong, little is lost.
+        // wrong, little is lost. Twice the replicates have errors of 1 / 1.41.
         const double far = so_far.rows == 0 ? 1 : 1.1 * so_far.volume.half_width / aim(so_far.volume.value, floor);
-        const double more = std::clamp(std::pow(far, region.levels < 2 ? 1.0 : 1.5), 2.0, 64.0);
-        const bool goes_on = has_own && (more < 2.5 || rays * more > most_own_rays);
+        const double more = std::clamp(std::pow(far, region.levels < 2 ? 1.0 : 1.25), 1.4, 64.0);
+        const bool goes_on = has_own && (far < 1.4 || rays * more > most_own_rays);
         if (goes_on && region.replicates >= most_replicates) continue;
         const double own = goes_on ? rays * region.replicates / least_batches : std::max(first_own_rays, rays * more);
         const bool is_own_alone = goes_on || so_far.rows == 0;
@@ -424,6 +457,8 @@ Measurement Measurer::Impl::result(bool all_parts) const {
                           .reached = has_reached(r, so_far, floor),
                           .unmet = is_unmet,
                           .weightless = result.has_densities && !regions[r].has_density,
+                          .thin = !walls.empty() && is_thin(walls[r]),
+                          .wall = walls.empty() ? Wall{} : walls[r],
                           .unmet_bound = is_unmet ? unmet_bound(r) : 0});
     }
     const auto add = [&](MeasuredKind kind, std::string name, std::int32_t id,
@@ -438,6 +473,9 @@ Measurement Measurer::Impl::result(bool all_parts) const {
             m.unmet += single[r].unmet;
             m.weightless += single[r].weightless;
             m.unmet_bound += single[r].unmet_bound;
+            m.thin += single[r].thin;
+            const double thickness = single[r].wall.thickness;
+            if (thickness > 0 && (m.wall.thickness == 0 || thickness < m.wall.thickness)) m.wall = single[r].wall;
         }
         estimate(of, result.has_densities, m);
         result.parts.push_back(std::move(m));
@@ -481,6 +519,9 @@ Measurement Measurer::measure(const MeasureRequest& request, const std::function
     check(request);
     m.request = request;
     m.weigh();
+    m.request.walls = request.walls || request.wall_limit > 0;
+    m.all_chords.assign(m.request.walls ? m.regions.size() : 0, {});
+    m.walls.clear();
     m.global.clear();
     m.global_levels = 0;
     m.traced = 0;
@@ -506,6 +547,7 @@ Measurement Measurer::measure(const MeasureRequest& request, const std::function
             if (m.is_cut || request.rays > 0) break;
             jobs = m.plan();
         }
+        if (m.request.walls) m.walls = walls_of(m.all_chords, m.renderer);
     } catch (const Error& error) {
         if (error.status() != Status::interrupted || m.global.empty()) throw;
         m.is_cut = true;

@@ -36,6 +36,11 @@ struct Sums {
         for (std::size_t i = 0; i < 6; ++i) second[i] += by * s.second[i];
         rows += s.rows;
     }
+    Sums scaled(double by) const {
+        Sums s;
+        s.add(*this, by, by);
+        return s;
+    }
     /// The sums relative to a point that is `to` away.
     Sums from(const Vec3& to) const {
         const Vec3 d = -1.0 * to, f = first;  // from the new point to the old one

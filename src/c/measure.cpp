@@ -64,6 +64,12 @@ csgrt_status csgrt_measurer_part(const csgrt_measurer* measurer, size_t index, c
         all.unmet = m.unmet;
         all.weightless = m.weightless;
         all.unmet_bound = m.unmet_bound;
+        all.thin = m.thin;
+        all.wall = m.wall.thickness;
+        all.wall_from = csgrt::c::of(m.wall.from);
+        all.wall_to = csgrt::c::of(m.wall.to);
+        all.is_tapered = m.wall.is_tapered;
+        std::copy(m.wall.shares.begin(), m.wall.shares.end(), all.wall_shares);
         fill(part, all, "part");
     });
 }

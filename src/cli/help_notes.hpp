@@ -105,6 +105,9 @@ and the centroid, and a box that holds the part. Units: mm, mm^2, mm^3, kg and k
 densities centroid and moments are those of volume, in mm^5. With densities they are those of mass,
 density x volume x los / 100, and regions without one count as weightless and are named.
 
+A wall is measured from a face, along its inward normal, to a face that looks away within 30
+degrees. ~: its faces are not parallel. The exit status is 8 if a wall is below --wall-limit.
+
 The same seed gives the same figures on every device and any number of threads, unless --time or
 Ctrl-C ends the measure. Ctrl-C prints what there is; the exit status is 130 then.
 )";
@@ -147,6 +150,6 @@ The scene that is written has the same geometry to the last bit, and keeps the f
 
 inline constexpr const char* exit_status =
     "\nExit status: 0 done, 2 usage, 3 scene, 4 no device, 5 out of memory, 6 file, 7 device fault,\n"
-    "8 a comparison or verification differs, 130 interrupted.\n";
+    "8 a comparison or verification differs or a wall is too thin, 130 interrupted.\n";
 
 }  // namespace csgrt::cli

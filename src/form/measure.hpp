@@ -38,6 +38,15 @@ inline constexpr auto of<MeasureRequest> = Form{
              {.concern = Concern::work, .name = "--seed", .value = "N", .absent = "1"}),
     optional("densities", &MeasureRequest::densities, special,
              "Densities of the regions; if empty, there are no masses."),
+    optional("walls", &MeasureRequest::walls, flag, "The smallest wall of each region is searched.",
+             {.concern = Concern::work, .name = "--walls"}),
+    optional("wall_limit", &MeasureRequest::wall_limit, number, not_negative(),
+             "Millimetres: regions with a thinner wall are counted.",
+             {.concern = Concern::work,
+              .name = "--wall-limit",
+              .value = "MM",
+              .absent = "none is",
+              .expected = "a length in millimetres, 0 or more"}),
 };
 
 }  // namespace csgrt::form

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <map>
 
 #include "bodies.hpp"
 #include "catch.hpp"
@@ -176,6 +177,57 @@ TEST_CASE("a region that no ray meets is listed with a bound", "[promise:measure
     check_near(part(result, "all").volume, 1000);
 }
 
+TEST_CASE("the smallest wall of a body is found exactly, whatever the seed", "[promise:measure]") {
+    const std::map<std::string, double> known = {{"ball", 20},      {"box", 7},          {"torus", 6},
+                                                 {"pipe", 0.1},     {"shell", 0.001},    {"plate", 0.02},
+                                                 {"Steinmetz", 10}, {"two scales", 0.02}};
+    for (const test::Body& body : test::bodies()) {
+        CAPTURE(body.name);
+        for (const std::uint64_t seed : {1, 2, 3, 4, 5}) {
+            const Measurement result = measured(body.scene, {.seed = seed, .walls = true});
+            const Wall& wall = part(result, "/" + body.name).wall;
+            CAPTURE(seed, wall.thickness);
+            if (body.name == "cone") {
+                CHECK(wall.thickness == 0);  // its tip is an edge
+            } else if (const auto found = known.find(body.name); found != known.end()) {
+                CHECK(std::abs(wall.thickness - found->second) < 1e-9);
+                CHECK(!wall.is_tapered);
+                const Vec3 a = wall.from, b = wall.to;
+                CHECK(std::abs(std::hypot(a.x - b.x, a.y - b.y, a.z - b.z) - wall.thickness) < 1e-9);
+                double shares = 0;
+                for (const double share : wall.shares) shares += share;
+                CHECK(std::abs(shares - 1) < 1e-12);
+            } else if (body.name == "lens") {
+                CHECK(wall.is_tapered);
+                CHECK((wall.thickness > 7.5 && wall.thickness < 8));
+            }
+        }
+    }
+}
+
+TEST_CASE("a round wall does not hide a smaller plane one", "[promise:measure]") {
+    // The plate is 5 thick, and there are 7 between its bore and its sides.
+    const Scene scene =
+        test::scene({block("a", {0, 0, 0}, {20, 20, 5}),
+                     test::solid("b", Tgc{{10, 10, -1}, {0, 0, 7}, {3, 0, 0}, {0, 3, 0}, {3, 0, 0}, {0, 3, 0}}),
+                     region("plate", {leg("a"), leg("b"), test::less})});
+    for (const std::uint64_t seed : {1, 2, 3, 4, 5})
+        CHECK(measured(scene, {.seed = seed, .walls = true}).parts[0].wall.thickness == 5);
+}
+
+TEST_CASE("a limit of walls counts thinner ones, and none of its own thickness", "[promise:measure]") {
+    const std::pair<double, std::uint64_t> limits[] = {{9.9, 0}, {10, 0}, {10 * (1 + 5e-10), 0}, {10.0001, 3}};
+    for (const auto& [limit, thin] : limits) {
+        CAPTURE(limit);
+        const Measurement result = measured(blocks(), {.wall_limit = limit});
+        CHECK(part(result, "/all/pair/first").wall.thickness == 10);
+        CHECK(part(result, "/all/pair/second").wall.thickness == 5);  // what it owns
+        CHECK(part(result, "all").thin == thin + (thin == 0));
+        CHECK(part(result, "all").wall.thickness == 5);
+    }
+    CHECK(measured(blocks()).parts[0].wall.thickness == 0);
+}
+
 TEST_CASE("a measure ends when it is told to, with what it has", "[promise:measure]") {
     const MeasureRequest endless{.rel_error = 1e-12};
     Measurer measurer(Model(blocks(), {}, on_native()), on_native());
@@ -207,7 +259,8 @@ TEST_CASE("what cannot be measured is refused", "[promise:measure]") {
                                           {.rel_error = std::nan("")},
                                           {.abs_error = -1},
                                           {.time = -1},
-                                          {.densities = {{.density = -1}}}})
+                                          {.densities = {{.density = -1}}},
+                                          {.wall_limit = -1}})
         CHECK(thrown_by([&] { measured(blocks(), request); }).status == Status::usage);
     const Measurement empty = measured(test::scene({block("a", {0, 0, 0}, {1, 1, 1}), block("b", {3, 0, 0}, {4, 1, 1}),
                                                     region("none", {leg("a"), leg("b"), test::both})}));

@@ -63,8 +63,8 @@ TEST_CASE("measure prints a table, and writes JSON and CSV", "[promise:measure]"
     CHECK(part(result, "/all.g/b.r")["centroid_x"][0].is_null());
 
     const std::string csv = read_file(folder / "out.csv");
-    CHECK(csv.starts_with("kind,name,id,regions,reached,unmet,weightless,unmet_bound,volume,volume_half_width,"));
-    CHECK(contains(csv, "\nregion,/all.g/b.r,1,1,1,0,1,0,"));
+    CHECK(csv.starts_with("kind,name,id,regions,reached,unmet,weightless,unmet_bound,thin,wall,volume,"));
+    CHECK(contains(csv, "\nregion,/all.g/b.r,1,1,1,0,1,0,0,,"));
     const auto columns = [](const std::string& line) { return std::count(line.begin(), line.end(), ','); };
     std::istringstream rows(csv);
     std::string head;
@@ -86,6 +86,20 @@ TEST_CASE("measure's JSON has the same bytes with any number of threads", "[prom
     CHECK(bytes({"--threads", "2"}) == one);
     CHECK(bytes({"--reference"}) == one);
     CHECK(bytes({"--seed", "2"}) != one);
+}
+
+TEST_CASE("a wall below the limit ends measure with 8, and is told with its ends", "[promise:measure]") {
+    NEEDS_COMMAND();
+    const Folder folder;
+    const std::string scene = folder.write("blocks.asc", blocks);
+    const Result fine = run({"measure", scene, "--walls"});
+    CHECK(fine.status == 0);
+    CHECK(contains(fine.out, " wall mm\n"));
+    CHECK(run({"measure", scene, "--wall-limit", "5"}).status == 0);
+    const Result thin = run({"measure", scene, "--wall-limit", "5.001"});
+    CAPTURE(thin.out);
+    CHECK(thin.status == 8);
+    CHECK(contains(thin.out, "\nWalls thinner than 5.001 mm:\n  /all.g/b.r  5 mm, from 1"));
 }
 
 TEST_CASE("a table of densities of one's own counts in place of the database's", "[promise:measure]") {

@@ -201,6 +201,8 @@ TEST_CASE("help lists every option, and every option listed is understood") {
           "--time S",
           "--rays N",
           "--seed N",
+          "--walls",
+          "--wall-limit MM",
           "--densities FILE",
           "--depth N",
           "--json FILE",

@@ -351,6 +351,10 @@ def test_measure_weighs_parts():
     assert result.volume["/pin"] == pin.volume and result.mass["all"] == result.parts[0].mass
     assert abs(result["all"].volume.nominal - 2000) < 2.5 * result["all"].volume.half_width
     assert scene.measure(rel_error=1e-3, densities={1: 7.85, "/pin": 8.8}).parts == result.parts
+    assert plate.wall is None
+    thin = scene.measure(wall_limit=5.5)["/plate"]
+    assert thin.thin == 1 and thin.wall == (5, thin.wall.start, thin.wall.end, False)
+    assert sorted((thin.wall.start[2], thin.wall.end[2])) == [0, 5]
     with pytest.raises(KeyError, match="did you mean '/plate'"):
         result["/plat"]
     for wrong in ({"rel_eror": 1}, {"rel_error": "x"}, {"densities": {1: "a"}}, {"densities": {1.5: 1}}):

@@ -102,7 +102,8 @@ using Command =
     std::variant<RenderArguments, ViewArguments, ShootArguments, SampleArguments, VerifyArguments, MeasureArguments,
                  CompareArguments, DevicesArguments, InfoArguments, ConvertArguments, TextArguments>;
 
-// Each returns Status::ok; `compare` and `verify` may also return Status::differs. Every other failure is an Error.
+// Each returns Status::ok; `compare`, `verify` and `measure` may also return Status::differs. Every other failure is an
+// Error.
 Status run(const RenderArguments& arguments);
 Status run(const ViewArguments& arguments);
 Status run(const ShootArguments& arguments);

@@ -73,7 +73,8 @@ Status run(const MeasureArguments& arguments) {
         out.commit();
     }
     if (arguments.json != "-" && arguments.csv != "-") print(to_text(result, request, arguments.depth, table_width()));
-    return interrupted() ? Status::interrupted : Status::ok;
+    if (interrupted()) return Status::interrupted;
+    return result.parts.front().thin > 0 ? Status::differs : Status::ok;
 }
 
 }  // namespace csgrt::cli

@@ -56,9 +56,18 @@ std::string cells(const Estimate& e) {
     return right(e.value > 0 ? format_number("%.6g", e.value) : "0", 13) + right(relative(e), 10);
 }
 
+/// "0.1", "7.8~" if it is tapered, "-" if there is none.
+std::string wall_of(const Wall& wall) {
+    return wall.thickness > 0 ? format_number("%.6g", wall.thickness) + (wall.is_tapered ? "~" : "") : "-";
+}
+
+std::string point_of(const Vec3& p) {
+    return format_number("%.6g", p.x) + " " + format_number("%.6g", p.y) + " " + format_number("%.6g", p.z);
+}
+
 /// A list of regions, each with a remark; `all`: how many there are.
 template <class Is, class Say>
-std::string listed(const Measurement& result, const char* head, const Is& is, const Say& say) {
+std::string listed(const Measurement& result, const std::string& head, const Is& is, const Say& say) {
     std::string text;
     std::size_t count = 0;
     for (const Measured& m : result.parts) {
@@ -67,7 +76,7 @@ std::string listed(const Measurement& result, const char* head, const Is& is, co
     }
     if (count == 0) return {};
     if (count > most_listed) text += "  and " + std::to_string(count - most_listed) + " more, which --json lists\n";
-    return "\n" + std::string(head) + ":\n" + text;
+    return "\n" + head + ":\n" + text;
 }
 
 }  // namespace
@@ -91,15 +100,16 @@ std::string to_text(const Measurement& result, const MeasureRequest& request, in
                                        " " + format_number("%g", all.box.high.z) + " mm");
 
     // Columns: the name, and three estimates; the mass is left out if there is none.
-    const std::size_t figures = 23, count = result.has_densities ? 3 : 2;
-    const std::size_t names = std::max<std::size_t>(width > count * figures ? width - count * figures : 0, 20);
+    const bool has_walls = request.walls || request.wall_limit > 0;
+    const std::size_t columns = (result.has_densities ? 69 : 46) + (has_walls ? 12 : 0);
+    const std::size_t names = std::max<std::size_t>(width > columns ? width - columns : 0, 20);
     const auto head = [](const char* what) { return right(what, 13) + right("+-", 10); };
     text += "\n" + padded("", names) + head("volume mm^3") + (result.has_densities ? head("mass kg") : "") +
-            head("area mm^2") + "\n";
+            head("area mm^2") + (has_walls ? right("wall mm", 12) : "") + "\n";
     const auto add = [&](std::string name, const Measured& m) {
         if (name.size() > names) name = name.substr(0, names - 3) + "...";
         text += padded(std::move(name), names) + cells(m.volume) + (result.has_densities ? cells(m.mass) : "") +
-                cells(m.area) + "\n";
+                cells(m.area) + (has_walls ? right(wall_of(m.wall), 12) : "") + "\n";
     };
     std::vector<const Measured*> tree, materials;
     for (const Measured& m : result.parts) {
@@ -129,7 +139,14 @@ std::string to_text(const Measurement& result, const MeasureRequest& request, in
         result, "No density is known of these regions, which count as weightless",
         [](const Measured& m) { return m.weightless > 0; },
         [](const Measured& m) { return "  " + format_number("%.6g", m.volume.value) + " mm^3"; });
+    text += listed(
+        result, "Walls thinner than " + format_number("%g", request.wall_limit) + " mm",
+        [](const Measured& m) { return m.thin > 0; },
+        [](const Measured& m) {
+            return "  " + wall_of(m.wall) + " mm, from " + point_of(m.wall.from) + " to " + point_of(m.wall.to);
+        });
     text += "\n+- is half of the interval that holds the true figure in 95 of 100 measures.\n";
+    if (has_walls) text += "A wall with ~ is tapered: its faces are not parallel.\n";
     text += format_number("%.0f", static_cast<double>(result.rays)) + " rays, " +
             format_number("%.1f", result.seconds) + " s";
     if (request.rays == 0)
@@ -163,6 +180,19 @@ std::string json_point(const Vec3& p) {
     return "[" + json_figure(p.x) + ", " + json_figure(p.y) + ", " + json_figure(p.z) + "]";
 }
 
+std::string json_wall(const Wall& wall) {
+    if (wall.thickness == 0) return ", \"wall\": null";
+    std::string shares;
+    for (std::size_t i = 0; i < wall.shares.size(); ++i) {
+        if (wall.shares[i] > 0)
+            shares += (shares.empty() ? "[" : ", [") + json_figure(std::ldexp(1.0, static_cast<int>(i) - 16)) + ", " +
+                      json_figure(wall.shares[i]) + "]";
+    }
+    return ", \"wall\": {\"thickness\": " + json_figure(wall.thickness) + ", \"from\": " + json_point(wall.from) +
+           ", \"to\": " + json_point(wall.to) + ", \"tapered\": " + (wall.is_tapered ? "true" : "false") +
+           ", \"shares\": [" + shares + "]}";
+}
+
 }  // namespace
 
 std::string to_json(const Measurement& result, const MeasureRequest& request) {
@@ -186,13 +216,14 @@ std::string to_json(const Measurement& result, const MeasureRequest& request) {
             ", \"box\": " + (is_bounded ? "[" + json_point(m.box.low) + ", " + json_point(m.box.high) + "]" : "null") +
             ", \"regions\": " + std::to_string(m.regions) + ", \"reached\": " + std::to_string(m.reached) +
             ", \"unmet\": " + std::to_string(m.unmet) + ", \"weightless\": " + std::to_string(m.weightless) +
-            ", \"unmet_bound\": " + json_figure(m.unmet_bound) + "}";
+            ", \"thin\": " + std::to_string(m.thin) + ", \"unmet_bound\": " + json_figure(m.unmet_bound) +
+            json_wall(m.wall) + "}";
     }
     return text + "\n  ]\n}\n";
 }
 
 std::string to_csv(const Measurement& result) {
-    std::string text = "kind,name,id,regions,reached,unmet,weightless,unmet_bound";
+    std::string text = "kind,name,id,regions,reached,unmet,weightless,unmet_bound,thin,wall";
     for_estimates(result.parts.front(), result.has_densities, [&text](const std::string& name, const Estimate&) {
         text += "," + name + "," + name + "_half_width";
     });
@@ -200,7 +231,8 @@ std::string to_csv(const Measurement& result) {
     for (const Measured& m : result.parts) {
         append_field(text += std::string(kinds[static_cast<int>(m.kind)]) + ",", m.name);
         text += "," + std::to_string(m.id) + "," + std::to_string(m.regions) + "," + std::to_string(m.reached) + "," +
-                std::to_string(m.unmet) + "," + std::to_string(m.weightless) + "," + shortest(m.unmet_bound);
+                std::to_string(m.unmet) + "," + std::to_string(m.weightless) + "," + shortest(m.unmet_bound) + "," +
+                std::to_string(m.thin) + "," + (m.wall.thickness > 0 ? shortest(m.wall.thickness) : std::string());
         for_estimates(m, result.has_densities, [&text](const std::string&, const Estimate& e) {
             for (const double value : {e.value, e.half_width})
                 text += "," + (std::isfinite(value) ? shortest(value) : std::string());
