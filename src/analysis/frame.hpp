@@ -2,6 +2,7 @@
 // numbers of what they are for.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -78,9 +79,9 @@ inline std::array<Grid, 3> grids_of(const Box& box, double rays, Random& random)
         };
         const double width = 2 * reach(u), height = 2 * reach(v), depth = reach(d) + margin;
         Grid& g = grids[k];
-        const double columns = std::max(1.0, std::round(std::sqrt(rays * width / height)));
+        const double columns = std::clamp(std::round(std::sqrt(rays * width / height)), 1.0, std::min(rays, 0x1p31));
         g.columns = static_cast<std::uint32_t>(columns);
-        g.rows = static_cast<std::uint32_t>(std::max(1.0, std::round(rays / columns)));
+        g.rows = static_cast<std::uint32_t>(std::clamp(std::round(rays / columns), 1.0, 0x1p31));
         g.direction = d;
         g.right = width / g.columns * u;
         g.up = height / g.rows * v;

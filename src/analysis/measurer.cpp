@@ -97,8 +97,9 @@ double surface_of(const Box& box) {
     const Vec3 side = box.high - box.low;
     return 2 * (side.x * side.y + side.y * side.z + side.z * side.x);
 }
+/// Whether a box is empty or has no shadow, so that nothing in it has a volume.
 bool is_empty(const Box& box) {
-    return !(box.low.x <= box.high.x && box.low.y <= box.high.y && box.low.z <= box.high.z);
+    return !(surface_of(box) > 0 && box.low.x <= box.high.x && box.low.y <= box.high.y && box.low.z <= box.high.z);
 }
 Box joined(const Box& a, const Box& b) {
     if (is_empty(a)) return b;

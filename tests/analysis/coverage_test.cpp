@@ -71,8 +71,10 @@ TEST_CASE("95 % intervals hold the true figures in 95 % of 500 measures", "[.cov
 }
 
 TEST_CASE("intervals hold the true volumes also where a measure ends by their size", "[.coverage]") {
-    for (const test::Body& body : test::bodies()) {
-        const Seen all = seen(body, seeds, {.rel_error = body.name == "shell" ? 3e-3 : 3e-4});
+    const std::vector<test::Body> bodies = test::bodies();
+    for (std::size_t b = 0; b < bodies.size(); ++b) {
+        const test::Body& body = bodies[b];
+        const Seen all = seen(body, seeds, {.rel_error = b < compact ? 3e-4 : 5e-3});
         print(body, all);
         CAPTURE(body.name);
         CHECK(all.covered[0] >= 450);

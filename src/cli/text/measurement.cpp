@@ -101,15 +101,15 @@ std::string to_text(const Measurement& result, const MeasureRequest& request, in
 
     // Columns: the name, and three estimates; the mass is left out if there is none.
     const bool has_walls = request.walls || request.wall_limit > 0;
-    const std::size_t columns = (result.has_densities ? 69 : 46) + (has_walls ? 12 : 0);
+    const std::size_t columns = (result.has_densities ? 69 : 46) + (has_walls ? 14 : 0);
     const std::size_t names = std::max<std::size_t>(width > columns ? width - columns : 0, 20);
     const auto head = [](const char* what) { return right(what, 13) + right("+-", 10); };
     text += "\n" + padded("", names) + head("volume mm^3") + (result.has_densities ? head("mass kg") : "") +
-            head("area mm^2") + (has_walls ? right("wall mm", 12) : "") + "\n";
+            head("area mm^2") + (has_walls ? right("wall mm", 14) : "") + "\n";
     const auto add = [&](std::string name, const Measured& m) {
         if (name.size() > names) name = name.substr(0, names - 3) + "...";
         text += padded(std::move(name), names) + cells(m.volume) + (result.has_densities ? cells(m.mass) : "") +
-                cells(m.area) + (has_walls ? right(wall_of(m.wall), 12) : "") + "\n";
+                cells(m.area) + (has_walls ? right(wall_of(m.wall), 14) : "") + "\n";
     };
     std::vector<const Measured*> tree, materials;
     for (const Measured& m : result.parts) {
