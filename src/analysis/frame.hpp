@@ -59,15 +59,29 @@ struct Grid {
     double cell = 0;    ///< mm²: the area that each ray stands for
     double length = 0;  ///< mm: beyond it is no more of the box
 
+    Box box = {};  ///< a little larger than what the grid covers
+
     std::uint64_t size() const { return std::uint64_t(columns) * rows; }
+    /// Whether a ray of the grid meets the box.
+    bool meets(const Ray& ray) const {
+        double in = 0, out = length;
+        for (double Vec3::*const axis : {&Vec3::x, &Vec3::y, &Vec3::z}) {
+            const double by = 1 / direction.*axis;
+            const double a = (box.low.*axis - ray.origin.*axis) * by, b = (box.high.*axis - ray.origin.*axis) * by;
+            in = std::max(in, std::min(a, b));
+            out = std::min(out, std::max(a, b));
+        }
+        return in <= out;
+    }
     Ray ray(std::uint64_t i) const {
         return {corner + double(i % columns) * right + double(i / columns) * up, direction};
     }
 };
 
-/// The three grids of a replicate. `rays`: how many each has, about. A grid is one period of an endless lattice whose
-/// cells tile the box's shadow, so the shift by less than a cell leaves no part of the shadow out.
+/// The three grids of a replicate. `rays`: how many of each meet the box, about. A grid is one period of an endless
+/// lattice whose cells tile the box's shadow, so the shift by less than a cell leaves no part of the shadow out.
 inline std::array<Grid, 3> grids_of(const Box& box, double rays, Random& random) {
+    constexpr double most_of_shadow = 64;  // a long box has a small shadow across its window
     const Vec3 half = 0.5 * (box.high - box.low), center = box.low + half;
     const double margin = 1e-3 * length(half);
     const std::array<Vec3, 3> frame = random_frame(random);
@@ -79,14 +93,19 @@ inline std::array<Grid, 3> grids_of(const Box& box, double rays, Random& random)
         };
         const double width = 2 * reach(u), height = 2 * reach(v), depth = reach(d) + margin;
         Grid& g = grids[k];
-        const double columns = std::clamp(std::round(std::sqrt(rays * width / height)), 1.0, std::min(rays, 0x1p31));
+        const double shadow =
+            4 * (std::abs(d.x) * half.y * half.z + std::abs(d.y) * half.z * half.x + std::abs(d.z) * half.x * half.y);
+        const double all = rays * std::min(width * height / shadow, most_of_shadow);
+        const double columns = std::clamp(std::round(std::sqrt(all * width / height)), 1.0, std::min(all, 0x1p31));
         g.columns = static_cast<std::uint32_t>(columns);
-        g.rows = static_cast<std::uint32_t>(std::clamp(std::round(rays / columns), 1.0, 0x1p31));
+        g.rows = static_cast<std::uint32_t>(std::clamp(std::round(all / columns), 1.0, 0x1p31));
         g.direction = d;
         g.right = width / g.columns * u;
         g.up = height / g.rows * v;
         g.cell = width / g.columns * (height / g.rows);
         g.length = 2 * depth;
+        const Vec3 more = {1e-6 * margin, 1e-6 * margin, 1e-6 * margin};
+        g.box = {box.low - more, box.high + more};
         const double shift_right = random.next() * width / g.columns, shift_up = random.next() * height / g.rows;
         g.corner = center - depth * d + (shift_right - width / 2) * u + (shift_up - height / 2) * v;
     }

@@ -50,6 +50,7 @@ struct Piece {
     std::size_t grid = 0;
     std::uint64_t first = 0, count = 0;
     bool ends_job = false;
+    std::vector<std::uint32_t> kept = {};  ///< of these rays, those that meet the box, counted from the first one
 };
 
 /// What a piece's rays have found of a region.
@@ -239,12 +240,12 @@ void Measurer::Impl::sum_piece(const Piece& p, const Grid& grid, std::size_t fir
         return found[static_cast<std::size_t>(at)];
     };
     const Vec3 d = grid.direction;
-    for (std::uint64_t i = 0; i < p.count; ++i) {
+    for (std::size_t i = 0; i < p.kept.size(); ++i) {
         const std::size_t ray = first_ray + i;
         const auto begin = static_cast<std::size_t>(rows.ray_splits[ray]),
                    end = static_cast<std::size_t>(rows.ray_splits[ray + 1]);
         if (begin == end) continue;
-        const Vec3 origin = grid.ray(p.first + i).origin;
+        const Vec3 origin = grid.ray(p.first + p.kept[i]).origin;
         for (std::size_t row = begin; row < end; ++row) {
             const std::int32_t r = rows.region_ids[row];
             if (wanted != everything && r != wanted) continue;
@@ -276,20 +277,27 @@ void Measurer::Impl::sum_piece(const Piece& p, const Grid& grid, std::size_t fir
 
 /// Traces the rays of pieces and adds their sums to the jobs, in the order of the pieces.
 void Measurer::Impl::flush(std::vector<Piece>& pieces, std::vector<Grid>& all_grids) {
-    std::vector<std::size_t> firsts;
-    std::size_t count = 0;
-    for (const Piece& p : pieces) {
-        firsts.push_back(count);
-        count += p.count;
-    }
-    std::vector<Ray> rays(count);
-    std::vector<RayRange> ranges(count);
     constexpr std::size_t few = 4;  // pieces
     for_chunks(pieces.size(), few, threads, [&](std::size_t first, std::size_t last, std::size_t) {
         for (std::size_t i = first; i < last; ++i) {
             const Grid& grid = all_grids[pieces[i].grid];
-            for (std::uint64_t k = 0; k < pieces[i].count; ++k) {
-                rays[firsts[i] + k] = grid.ray(pieces[i].first + k);
+            for (std::uint32_t k = 0; k < pieces[i].count; ++k)
+                if (grid.meets(grid.ray(pieces[i].first + k))) pieces[i].kept.push_back(k);
+        }
+    });
+    std::vector<std::size_t> firsts;
+    std::size_t count = 0;
+    for (const Piece& p : pieces) {
+        firsts.push_back(count);
+        count += p.kept.size();
+    }
+    std::vector<Ray> rays(count);
+    std::vector<RayRange> ranges(count);
+    for_chunks(pieces.size(), few, threads, [&](std::size_t first, std::size_t last, std::size_t) {
+        for (std::size_t i = first; i < last; ++i) {
+            const Grid& grid = all_grids[pieces[i].grid];
+            for (std::size_t k = 0; k < pieces[i].kept.size(); ++k) {
+                rays[firsts[i] + k] = grid.ray(pieces[i].first + pieces[i].kept[k]);
                 ranges[firsts[i] + k] = {0, grid.length};
             }
         }

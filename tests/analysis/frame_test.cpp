@@ -36,8 +36,11 @@ TEST_CASE("the grids of a box have about the rays that are wanted, and cover its
         for (std::uint64_t seed = 0; seed < 20; ++seed) {
             Random random{seed};
             for (const Grid& grid : grids_of(box, 1000, random)) {
-                CHECK(grid.size() <= 1100);
-                CHECK(grid.size() >= 500);
+                CHECK(grid.size() <= 70'000);
+                std::uint64_t meet = 0;
+                for (std::uint64_t i = 0; i < grid.size(); ++i) meet += grid.meets(grid.ray(i));
+                CHECK(meet <= 1300);
+                if (&box == boxes) CHECK(meet >= 700);
                 CHECK(grid.cell > 0);
                 const Vec3 u = 1 / length(grid.right) * grid.right, v = 1 / length(grid.up) * grid.up;
                 const Ray last = grid.ray(grid.size() - 1);
