@@ -11,7 +11,7 @@ namespace csgrt {
 
 namespace {
 
-constexpr std::uint32_t opaque = 0xff000000u;
+constexpr std::uint32_t opaque = 0xff000000u, nothing = 0;  // where a ray hits nothing, the page's ground shows
 
 std::uint32_t pixel(double red, double green, double blue) {
     const auto byte = [](double value) { return static_cast<std::uint32_t>(std::clamp(value, 0.0, 1.0) * 255 + 0.5); };
@@ -31,7 +31,7 @@ std::uint32_t of_hue(double hue, double value = 1) {
 
 /// The colour of a region. Regions with neighbouring numbers get very different colours.
 std::uint32_t of_region(std::uint32_t number) {
-    if (number == 0) return opaque;
+    if (number == 0) return nothing;
     constexpr double golden = 0.6180339887498949;
     return of_hue(golden * number, number % 3 == 0 ? 1 : number % 3 == 1 ? 0.8 : 0.62);
 }
@@ -45,14 +45,14 @@ void paint_depth(std::span<const float> depth, std::span<std::uint32_t> pixels) 
     }
     const double range = high > low ? double{high} - low : 1;
     for (std::size_t i = 0; i < pixels.size(); ++i)
-        pixels[i] = std::isfinite(depth[i]) ? gray(1 - 0.8 * (double{depth[i]} - low) / range) : opaque;
+        pixels[i] = std::isfinite(depth[i]) ? gray(1 - 0.8 * (double{depth[i]} - low) / range) : nothing;
 }
 
 void paint_normals(const Image& image, std::span<std::uint32_t> pixels) {
     const std::array<std::span<const float>, 3> n{image.channel("N.X"), image.channel("N.Y"), image.channel("N.Z")};
     for (std::size_t i = 0; i < pixels.size(); ++i) {
         const bool hit = n[0][i] != 0 || n[1][i] != 0 || n[2][i] != 0;
-        pixels[i] = hit ? pixel((n[0][i] + 1) / 2, (n[1][i] + 1) / 2, (n[2][i] + 1) / 2) : opaque;
+        pixels[i] = hit ? pixel((n[0][i] + 1) / 2, (n[1][i] + 1) / 2, (n[2][i] + 1) / 2) : nothing;
     }
 }
 
@@ -62,13 +62,13 @@ void paint_overlaps(const Image& image, std::span<std::uint32_t> pixels) {
     for (std::size_t i = 0; i < pixels.size(); ++i)
         pixels[i] = overlaps[i] > 0     ? pixel(0.6 + 0.1 * overlaps[i], 0.05, 0.05)
                     : partitions[i] > 0 ? gray(0.3)
-                                        : opaque;
+                                        : nothing;
 }
 
 void paint_segments(std::span<const float> counts, std::span<std::uint32_t> pixels) {
     const float most = std::max(1.0f, *std::max_element(counts.begin(), counts.end()));
     for (std::size_t i = 0; i < pixels.size(); ++i)
-        pixels[i] = counts[i] > 0 ? of_hue(2.0 / 3 * (1 - counts[i] / most)) : opaque;
+        pixels[i] = counts[i] > 0 ? of_hue(2.0 / 3 * (1 - counts[i] / most)) : nothing;
 }
 
 /// Draws a light line between pixels of different ghosts.

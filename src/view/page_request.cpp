@@ -29,7 +29,7 @@ auto named(const Names& names, const Request& request, const char* member) {
     throw Error(Status::usage, std::string(member) + ": there is no '" + name + "'");
 }
 
-/// Reads the numbers, flags and points of a camera or a view.
+/// Reads the numbers, flags, points and names of a camera or a view.
 template <class S>
 void read_members(const Request& request, S& s) {
     form::for_members(form::of<S>, [&](const auto& member) {
@@ -46,6 +46,8 @@ void read_members(const Request& request, S& s) {
             value = request.number(name);
         else if constexpr (std::is_same_v<Value, std::optional<Vec3>>)
             value = request.vector(name);
+        else if constexpr (std::is_enum_v<Value>)
+            value = named(*member.kind.names, request, name);
     });
 }
 
@@ -154,6 +156,7 @@ PageView read_page_view(const Request& request) {
     }
     if (view.has("show")) page.show = named(shows, view, "show");
     page.view.width = page.view.height = 1;
+    page.view.transparent = true;  // the page has a ground of its own behind the picture
     read_members(view, page.view);
     read_members(request, page.view);
     page.view.every_partition = page.show == Show::overlap || page.show == Show::segments;

@@ -100,8 +100,16 @@ std::string bytes_of(const Value* values, std::size_t count) {
     return {reinterpret_cast<const char*>(values), count * sizeof(Value)};
 }
 
-/// Copies a part of a picture to its place in the whole, whose memory is made unless it has the picture's form.
-void put(const Image& image, const View& view, Renderer& renderer, Image& whole) {
+/// A part with the pixels around it: edges on its border need them.
+PixelRectangle with_border(const PixelRectangle& part, const View& view) {
+    const int left = std::max(part.left - 1, 0), top = std::max(part.top - 1, 0);
+    return {left, top, std::min(part.left + part.width + 1, view.width) - left,
+            std::min(part.top + part.height + 1, view.height) - top};
+}
+
+/// Copies a part of a picture of `view.part` to its place in the whole, whose memory is made unless it has the
+/// picture's form.
+void put(const Image& image, const View& view, const PixelRectangle& part, Renderer& renderer, Image& whole) {
     if (whole.width != view.width || whole.height != view.height || whole.names != image.names) {
         View nothing = view;  // A picture of nothing is memory alone, and its drawing can be ended.
         nothing.part = {};
@@ -112,12 +120,12 @@ void put(const Image& image, const View& view, Renderer& renderer, Image& whole)
         whole = made.take();
     }
     const auto size = [](int count) { return static_cast<std::size_t>(count); };
-    const std::size_t width = size(image.width), all = size(whole.width);
+    const std::size_t first_row = size(part.top - view.part->top), first = size(part.left - view.part->left);
     for (std::size_t c = 0; c < whole.channels.size(); ++c)
-        for (std::size_t row = 0; row < size(image.height); ++row)
+        for (std::size_t row = 0; row < size(part.height); ++row)
             std::ranges::copy(
-                image.channels.ids(c).subspan(row * width, width),
-                whole.channels.ids(c).subspan((size(view.part->top) + row) * all + size(view.part->left)).begin());
+                image.channels.ids(c).subspan((first_row + row) * size(image.width) + first, size(part.width)),
+                whole.channels.ids(c).subspan((size(part.top) + row) * size(whole.width) + size(part.left)).begin());
 }
 
 Json to_json(const RegionInfo& region, const Box& box) {
@@ -215,7 +223,9 @@ Json ViewSession::model() const {
              {{"camera", camera_of(model, scene.camera)},
               {"clip", Json::array()},
               {"looks", Json::array()},
-              {"show", "color"}}},
+              {"show", "color"},
+              {"edges", true},
+              {"light", "studio"}}},
             {"paths", std::move(paths)},
             {"own_looks", std::move(looks)},
             {"look_of", std::move(look_of)},
@@ -333,12 +343,12 @@ bool ViewSession::draw_in_passes(const Model& model, View view, const std::funct
         part.height = side(view.width, view.height - part.top);
         for (part.left = 0; part.left < view.width; part.left += part.width) {
             part.width = side(part.height, view.width - part.left);
-            view.part = part;
+            view.part = view.edges ? with_border(part, view) : part;
             double took = 0;
             if (!draw_with(slow_, model, is_wanted, [&](Renderer& renderer) {
                     renderer.render(view, slow_.framebuffer);
                     took = renderer.statistics().ms.frame;
-                    put(slow_.framebuffer.image(), view, renderer, whole);
+                    put(slow_.framebuffer.image(), view, part, renderer, whole);
                 }))
                 return false;
             ms += took;

@@ -420,14 +420,24 @@ class Browser(unittest.TestCase):
         self.assertTrue(page.start(self.server.address).id("parts").is_displayed())
 
     def test_everybody(self):
-        """axe-core finds nothing, borders of controls have a contrast of 3, targets 24 px."""
-        page = self.page
+        """axe-core finds nothing, borders of controls have a contrast of 3, targets 24 px; in both schemes."""
+        try:
+            for scheme in ("dark", "light"):
+                self.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {
+                    "features": [{"name": "prefers-color-scheme", "value": scheme}]})
+                with self.subTest(scheme):
+                    self.everybody(Page(self.driver, self.server.address))
+        finally:
+            self.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": []})
+
+    def everybody(self, page):
         axe = axe_source(WORK)
         if not axe:
             self.skipTest("there is no npm, or it gets no axe-core")
         page.press("view-iso").press("toggle-cut").press("add-plane").press("cut-0-slice")
         page.click(*page.screen([40, 45, 40]))
-        page.press("toggle-save").press("get-command").press("toggle-warnings").press("help-button")
+        page.press("toggle-save").press("get-command").press("toggle-warnings").press("toggle-display")
+        page.press("help-button")
         for dialog in ("help", None):
             page.js(axe)
             found = page.driver.execute_async_script("""
@@ -723,6 +733,59 @@ class Browser(unittest.TestCase):
         self.assertFalse(page.id("help").is_displayed())
         page.keys("/", "t", "w")
         self.assertEqual(page.js("return document.getElementById('search').value"), "tw")
+
+    def test_edges_and_light(self):
+        page, at = self.page, [v + 9 for v in self.middle]
+        border = page.screen([80, 50, 20])
+
+        def blacks():
+            return [page.color(border[0] + d, border[1]) for d in range(-3, 4)].count([0, 0, 0])
+        self.assertEqual((page.view()["edges"], page.view()["light"], blacks()), (True, "studio", 1))
+        self.assert_as_the_command_draws()
+        studio = page.color(*at)
+        page.keys("e")
+        self.assertEqual((page.id("edges").get_attribute("aria-pressed"), blacks()), ("false", 0))
+        for light in ("model", "headlight"):
+            page.set("light", light, "change")
+            self.assert_as_the_command_draws()
+            self.assertEqual("--light" in page.text("command"), light == "headlight")
+            self.assertNotEqual(page.color(*at), studio)
+        page.press("edges")
+        self.assertEqual(blacks(), 1)
+        page.js("""
+            const paints = show_frame, lines = csgrt.lines = [];
+            show_frame = (job, head, pixels) => {
+              paints(job, head, pixels);
+              const words = new Uint32Array(paint.getImageData(0, 0, csgrt.size.width, csgrt.size.height).data.buffer);
+              lines.push([job.divisor, words.filter(word => word === 0xff000000).length]);
+            };
+            loop.divisor = 4""")
+        page.drag(self.middle, [self.middle[0] + 50, self.middle[1]])
+        lines = page.js("return csgrt.lines")
+        self.assertEqual({count for divisor, count in lines if divisor > 1}, {0})
+        self.assertGreater(lines[-1][1], 100)
+
+    def test_the_ground_follows_the_system_or_has_its_own_colours(self):
+        page, corner = self.page, "return [...paint.getImageData(2, 2, 1, 1).data]"
+        self.assertEqual(page.js(corner), [0, 0, 0, 0])
+        style = "return getComputedStyle(by('picture')).backgroundImage"
+        grounds = []
+        try:
+            for scheme in ("dark", "light"):
+                page.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {
+                    "features": [{"name": "prefers-color-scheme", "value": scheme}]})
+                grounds.append([page.js(style), page.id("ground-top").get_attribute("value")])
+            self.assertNotEqual(grounds[0][0], grounds[1][0])
+            self.assertNotEqual(grounds[0][1], grounds[1][1])
+            page.set("ground-top", "#ff8000")
+            self.assertIn("rgb(255, 128, 0)", page.js(style))
+            time.sleep(0.4)
+            other = Page(self.driver, page.driver.current_url)
+            self.assertIn("rgb(255, 128, 0)", other.js(style))
+            other.press("ground-own")
+            self.assertEqual(other.js(style), grounds[1][0])
+        finally:
+            page.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": []})
 
     def test_what_pixels_show(self):
         seen = {self.page.picture()}

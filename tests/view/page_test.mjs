@@ -116,15 +116,17 @@ test("undo goes back and forth among the states; one drag is one step", () => {
 
 test("a link gives what it was made of; what is wrong with others is said", () => {
   const usual = {camera: {azimuth: 1, elevation: 2, perspective: 0, center: [0, 0, 0], view_size: 9}, clip: [],
-                 looks: [], show: "color"};
-  const view = {...usual, clip: [{normal: [1, 0, 0], distance: 2}], looks: [{path: "/a'%#", state: "ghost"}]};
+                 looks: [], show: "color", edges: true, light: "studio"};
+  const view = {...usual, clip: [{normal: [1, 0, 0], distance: 2}], looks: [{path: "/a'%#", state: "ghost"}],
+                edges: false, light: "model", ground: [[0, 0, 0], [1, 0.5, 1]]};
   const page = {slice: {plane: 0, place: [1, 2], mm: 0.5}, selected: ["/a"],
                 answer: {camera: usual.camera, width: 9, height: 8, x: 3, y: 4, from: [1, 2, 3], to: [4, 5, 6]}};
-  const read = text => link.read_link(text, usual, ["color"]);
+  const read = text => link.read_link(text, usual, {show: ["color"], light: ["studio", "model"]});
   assert.deepEqual(read(link.written_link(view, page).slice(1)), {view, ...page});
   for (const [text, why] of [["%7Bbad", /cut short/], ["%E0%A4", /cut short/], ["[1]", /object/], ["null", /object/],
     ['{"looks":[null]}', /looks/], ['{"clip":[{}]}', /clip/], ['{"camera":{"view_size":0}}', /camera/],
-    ['{"show":"all"}', /show/], ['{"slice":{"plane":0}}', /slice/], ['{"selected":[1]}', /selected/],
+    ['{"show":"all"}', /show/], ['{"light":"sun"}', /light/], ['{"edges":1}', /edges/], ['{"ground":[1]}', /ground/],
+    ['{"slice":{"plane":0}}', /slice/], ['{"selected":[1]}', /selected/],
     ['{"answer":{"x":1}}', /answer/]]) assert.throws(() => read(text), why, text);
 });
 

@@ -45,6 +45,9 @@ View view_of(const json& page_view) {
     const json& c = camera["center"];
     view.camera.center = Vec3{c[0], c[1], c[2]};
     view.camera.view_size = camera["view_size"];
+    view.edges = page_view["edges"];
+    view.light = page_view["light"] == "studio" ? Lighting::studio : Lighting::model;
+    view.transparent = true;
     return view;
 }
 
@@ -123,10 +126,11 @@ TEST_CASE("view: a scene's camera by its eye is shown from there", "[view]") {
         scene.camera.look_at = Vec3{100, 200, 50};
         const Model model(scene);
         const PageClient page(model);
-        View view{.width = width, .height = height, .camera = scene.camera};
+        const json own = page.ask("model")["view"];
+        View view = view_of(own);
+        view.camera = scene.camera;
         Renderer renderer(model);
-        const std::string wanted = display_bytes(renderer, view),
-                          shown = page.frame(sized(page.ask("model")["view"])).pixels;
+        const std::string wanted = display_bytes(renderer, view), shown = page.frame(sized(own)).pixels;
         std::size_t different = 0;
         for (std::size_t i = 0; i < wanted.size(); i += 4) different += wanted.compare(i, 4, shown, i, 4) != 0;
         CAPTURE(perspective);
@@ -463,6 +467,7 @@ TEST_CASE("view: wrong requests are refused with a sentence that names the membe
     CHECK_THAT(refused("command", right, "/width", 0), Contains("width: expected"));
     CHECK_THAT(refused("command", right, "/view/camera/azimuth", "35"), Contains("view.camera.azimuth: expected a n"));
     CHECK_THAT(refused("command", right, "/view/show", "colour"), Contains("show: there is no 'colour'"));
+    CHECK_THAT(refused("command", right, "/view/light", "sun"), Contains("light: there is no 'sun'"));
     CHECK_THAT(refused("command", right, "/view/looks", {{{"path", 1}}}), Contains("view.looks[0].path: expected"));
     CHECK_THAT(refused("command", right, "/view", 1), Contains("view: expected an object"));
     const auto status = [&](const std::string& body) {

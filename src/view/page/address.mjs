@@ -25,8 +25,8 @@ const present_link = () => written_link(view, {
 export function write_address() {
   if (!ended) history.replaceState(history.state, "", present_link());
 }
-const shows = () => [...by("show").options].map(option => option.value);
-export const checked_view = given => checked(given, model.view, shows());
+const choices = () => Object.fromEntries(["show", "light"].map(id => [id, [...by(id).options].map(one => one.value)]));
+export const checked_view = given => checked(given, model.view, choices());
 export function set_view(given) {
   hold({view: checked_view(given)});
   build_planes();
@@ -35,7 +35,7 @@ export function set_view(given) {
 export function read_address() {
   if (!location.hash.slice(1) || decodeURI(location.hash) === decodeURI(present_link())) return;
   try {
-    use_link(read_link(location.hash.slice(1), model.view, shows()));
+    use_link(read_link(location.hash.slice(1), model.view, choices()));
     say("address", "");
   } catch (error) {
     say("address", `The link in the address is not used: ${error.message}. The page shows the view as it was.`);

@@ -3,6 +3,7 @@ import {remember} from "./acts.mjs";
 import {keep_address} from "./address.mjs";
 import {ask_hover} from "./ask.mjs";
 import {size} from "./camera.mjs";
+import {draw_display} from "./display.mjs";
 import {by, resize, say} from "./dom.mjs";
 import {load_model} from "./main.mjs";
 import {wheel} from "./mouse.mjs";
@@ -72,7 +73,8 @@ async function draw(job) {
   // A coarse frame is scaled by its height. Its width is such that the picture is covered then.
   const height = Math.ceil(job.full_height / job.divisor);
   const width = job.divisor === 1 ? job.full_width : Math.ceil(job.full_width * height / job.full_height);
-  const response = await post("frame", {page: page_id, number: ++loop.number, view, width, height, samples: job.samples,
+  const response = await post("frame", {page: page_id, number: ++loop.number, width, height, samples: job.samples,
+                                        view: {...view, edges: view.edges && job.divisor === 1},
                                         encoding: encoding_of(loop, job, loop.number)}, job.abort.signal);
   const {head, pixels} = await read_frame(response);
   if (head.error) throw new Error(head.error);
@@ -107,7 +109,7 @@ async function inflated(bytes) {
   return new Uint8Array(words.buffer);
 }
 export const canvas = by("canvas");
-const paint = canvas.getContext("2d", {alpha: false}), coarse = document.createElement("canvas");
+const paint = canvas.getContext("2d"), coarse = document.createElement("canvas");
 function show_frame(job, head, {buffer, byteOffset, length}) {
   const image = new ImageData(new Uint8ClampedArray(buffer, byteOffset, length), head.width, head.height);
   resize(canvas, job.full_width, job.full_height);
@@ -115,7 +117,8 @@ function show_frame(job, head, {buffer, byteOffset, length}) {
     paint.putImageData(image, 0, 0);
   } else {
     resize(coarse, head.width, head.height);
-    coarse.getContext("2d", {alpha: false}).putImageData(image, 0, 0);
+    coarse.getContext("2d").putImageData(image, 0, 0);
+    paint.globalCompositeOperation = "copy";
     const width = head.width * canvas.height / head.height;
     paint.drawImage(coarse, (canvas.width - width) / 2, 0, width, canvas.height);
   }
@@ -158,6 +161,7 @@ export function changed(event = null, moving = false) {
   if (loop.job && !loop.job.coarse) loop.job.abort.abort();
   by("perspective").ariaPressed = String(view.camera.perspective > 0);
   by("show").value = view.show;
+  draw_display();
   remember(moving);
   keep_address();
   pump();

@@ -2,6 +2,7 @@
 import {act, go_step} from "./acts.mjs";
 import {answer, ask_hover, ask_pixel, forget_answer, hover, pick} from "./ask.mjs";
 import {size} from "./camera.mjs";
+import {toggle_edges} from "./display.mjs";
 import {by} from "./dom.mjs";
 import {changed, set_camera} from "./frames.mjs";
 import {center_at, pan, turn, zoom} from "./mouse.mjs";
@@ -37,6 +38,7 @@ export const KEYS = [
   [["9"], "iso: azimuth 35, elevation 25", look_from(35, 25)],
   [["5"], "parallel or perspective (30 degrees)", toggle_perspective],
   [["f", "Enter"], "fit what is shown", event => act.fit_shown(event)],
+  [["e"], "edges", toggle_edges],
   [["ArrowLeft", "ArrowRight", "ArrowUp", "ArrowDown"], "turn", moving(key => {
     const [x, y] = ARROWS[key], {azimuth, elevation, center} = view.camera;
     turn(azimuth - 5 * x, elevation + 5 * y, center);
@@ -84,7 +86,7 @@ document.addEventListener("keydown", event => {
 });
 /// Closes what is open, a step a time. False: nothing was.
 export function escape_all() {
-  const open = ["cut", "warnings", "save"].filter(panel => !by(panel).hidden);
+  const open = ["cut", "display", "warnings", "save"].filter(panel => !by(panel).hidden);
   if (answer || selected !== null || cross_hair.place) {
     cross_hair.place = null;
     forget_answer();

@@ -10,18 +10,23 @@ function expect(good, text) {
 }
 const is_vector = v => Array.isArray(v) && v.length === 3 && v.every(Number.isFinite);
 const is_count = v => Number.isInteger(v) && v >= 0;
-/// A whole view of what somebody gave. Throws what is wrong. `usual` has what is left out.
-export function checked(given, usual, shows) {
+/// A whole view of what somebody gave. Throws what is wrong. `usual` has what is left out, `choices` has the names that
+/// may be chosen of `show` and `light`.
+export function checked(given, usual, choices) {
   const is_plane = p => p && is_vector(p.normal) && Math.hypot(...p.normal) > 0 && Number.isFinite(p.distance);
   const is_look = look => look && typeof look.path === "string" && (!look.color || is_vector(look.color)) &&
     (!look.state || STATES.includes(look.state));
   expect(given && typeof given === "object" && !Array.isArray(given), "a view is an object");
-  const {clip, looks, show} = {...structuredClone(usual), ...given};
+  const {clip, looks, show, edges, light, ground = null} = {...structuredClone(usual), ...given};
   const camera = checked_camera({...usual.camera, ...given.camera});
   expect(Array.isArray(clip) && clip.length <= 3 && clip.every(is_plane), "clip is a list of up to three planes");
   expect(Array.isArray(looks) && looks.every(is_look), "looks is a list of paths with states or colours");
-  expect(shows.includes(show), "show is unknown");
-  return {camera, clip: clip.map(({normal, distance}) => ({normal, distance})), looks, show};
+  expect(choices.show.includes(show), "show is unknown");
+  expect(choices.light.includes(light), "light is unknown");
+  expect(typeof edges === "boolean", "edges is true or false");
+  expect(ground === null || Array.isArray(ground) && ground.length === 2 && ground.every(is_vector),
+         "ground is a list of two colours");
+  return {camera, clip: clip.map(({normal, distance}) => ({normal, distance})), looks, show, edges, light, ground};
 }
 function checked_camera({azimuth, elevation, perspective, center, view_size}) {
   expect([azimuth, elevation, perspective, view_size].every(Number.isFinite) && is_vector(center) && view_size > 0 &&
@@ -29,14 +34,14 @@ function checked_camera({azimuth, elevation, perspective, center, view_size}) {
   return {azimuth, elevation, perspective, center, view_size};
 }
 /// What a link's text has: a view, and `slice`, `selected` and `answer`. Throws what is wrong.
-export function read_link(text, usual, shows) {
+export function read_link(text, usual, choices) {
   let given = null;
   try {
     given = JSON.parse(decodeURIComponent(text));
   } catch {
     throw new Error("it is cut short or damaged");
   }
-  const view = checked(given, usual, shows), {slice, selected = [], answer} = given;
+  const view = checked(given, usual, choices), {slice, selected = [], answer} = given;
   expect(Array.isArray(selected) && selected.every(path => typeof path === "string"), "selected is a list of paths");
   expect(!slice || is_count(slice.plane) && slice.plane < view.clip.length && slice.mm > 0 &&
          Array.isArray(slice.place) && slice.place.length === 2 && slice.place.every(Number.isFinite),

@@ -4,6 +4,7 @@ import {checked_view, read_address} from "./address.mjs";
 import {ask_selected, copy, draw_answer} from "./ask.mjs";
 import {size} from "./camera.mjs";
 import {add_plane, build_planes} from "./cut.mjs";
+import {set_ground, set_light} from "./display.mjs";
 import {by, el, named, notes, rove_by_key, say} from "./dom.mjs";
 import {MOST_SIDE, canvas, changed, loop, pump} from "./frames.mjs";
 import {KEYS, MOUSE, run_of, with_selected} from "./keys.mjs";
@@ -92,7 +93,8 @@ function connect() {
   for (const name of ["parts", ...SECTIONS]) on("toggle-" + name, () => toggle_panel(name));
   for (const name of SECTIONS) on("close-" + name, () => toggle_panel(name, false));
   for (const [id, key] of [["view-front", "1"], ["view-right", "3"], ["view-top", "7"], ["view-iso", "9"], ["fit", "f"],
-                           ["perspective", "5"], ["help-button", "?"], ["show-all", "u"]]) on(id, run_of.get(key));
+                           ["perspective", "5"], ["edges", "e"], ["help-button", "?"], ["show-all", "u"]])
+    on(id, run_of.get(key));
   for (const [id, state] of [["hide", "hidden"], ["ghost", "ghost"], ["show", "shown"]])
     on("selected-" + id, event => act.state(selection, state, event));
   for (const [id, run] of Object.entries({
@@ -103,7 +105,8 @@ function connect() {
     "copy-link": copy_link,
     "save-png": save.png, "save-exr": save.exr, "save-view": save.view, "get-command": save.command,
     "add-plane": add_plane, "slice-fit": refit_slice, "slice-close": () => open_slice(-1),
-    "close-help": () => by("help").close(), "end": () => by("ask-end").showModal(),
+    "close-help": () => by("help").close(), "ground-own": () => set_ground(false),
+    "end": () => by("ask-end").showModal(),
     "end-no": () => by("ask-end").close(), "end-yes": end_csgrt})) on(id, run);
   on("selected-own", with_selected(act.own_color));
   on("selected-color", event => act.color(selection, from_hex(event.target.value), event), "input");
@@ -111,6 +114,8 @@ function connect() {
     view.show = by("show").value;
     changed(event);
   }, "change");
+  on("light", set_light, "change");
+  for (const id of ["ground-top", "ground-bottom"]) on(id, () => set_ground(true), "input");
   on("search", list_rows, "input");
   on("tree", draw_tree, "scroll");
   on("tree", tree_key, "keydown");

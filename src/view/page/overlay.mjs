@@ -9,10 +9,10 @@ import {along, corners, css, minus, unit} from "./numbers.mjs";
 import {bounds, color_of, model, path_of, selection, view} from "./state.mjs";
 
 export const overlay = by("overlay"), marks = {
-  planes: svg("path", {stroke: "#62aee8", "stroke-opacity": 0.75, "stroke-dasharray": "5 4"}),
-  box: svg("path", {stroke: "#ffd34d", "stroke-opacity": 0.8}),
-  measure: svg("path", {stroke: "#fff", "stroke-dasharray": "4 3", "stroke-width": 1.5}),
-  cross: svg("path", {stroke: "#fff", "stroke-width": 1.5}), ray: svg("g")};
+  planes: svg("path", {stroke: "var(--accent)", "stroke-opacity": 0.75, "stroke-dasharray": "5 4"}),
+  box: svg("path", {stroke: "var(--chosen)", "stroke-opacity": 0.8}),
+  measure: svg("path", {stroke: "var(--ink)", "stroke-dasharray": "4 3", "stroke-width": 1.5}),
+  cross: svg("path", {stroke: "var(--ink)", "stroke-width": 1.5}), ray: svg("g")};
 const handles = [0, 1, 2].map(i => {
   const wide = svg("path", {class: "wide"}), shaft = svg("path"), grip = svg("circle", {r: 8});
   const group = svg("g", {class: "handle", id: "handle-" + i}), handle = {group, wide, shaft, grip, drag: null};
@@ -67,7 +67,7 @@ function ray_lines(camera) {
   const t = answer.t ?? parts[0].in ?? 0, lines = [];
   const add = (from, to, attributes) => lines.push(svg("path", {...attributes,
     d: screen_path(camera, [[from, to].map(t => along(ray.origin, ray.direction, t))])}));
-  add((parts[0].in ?? t - span) - 0.03 * span, (parts.at(-1).out ?? t + span) + 0.03 * span, {stroke: "#fff"});
+  add((parts[0].in ?? t - span) - 0.03 * span, (parts.at(-1).out ?? t + span) + 0.03 * span, {stroke: "var(--ink)"});
   for (const p of parts.slice(0, 300))
     add(p.in ?? t - span, p.out ?? t + span,
         {stroke: css(color_of(p.region)), "stroke-width": selection.includes(path_of(p.region)) ? 8 : 4});

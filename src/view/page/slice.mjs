@@ -68,8 +68,8 @@ async function draw_slice() {
   const ids = new Int32Array(await response.arrayBuffer()), words = new Uint32Array(ids.length);
   const word = rgb => rgb.reduce((sum, v, i) => sum + (Math.round(255 * v) << (8 * i)), 0xff000000);
   const palette = Uint32Array.from(model.paths, (_, id) => word(color_of(id)));
-  const overlap = word([1, 0, 0]), nothing = word([0.07, 0.08, 0.1]);
-  for (let i = 0; i < ids.length; i++) words[i] = ids[i] >= 0 ? palette[ids[i]] : ids[i] === -2 ? overlap : nothing;
+  const overlap = word([1, 0, 0]);
+  for (let i = 0; i < ids.length; i++) words[i] = ids[i] >= 0 ? palette[ids[i]] : ids[i] === -2 ? overlap : 0;
   Object.assign(slice, {ids, width, height});
   resize(slice_canvas, width, height);
   const image = new ImageData(new Uint8ClampedArray(words.buffer), width, height);
