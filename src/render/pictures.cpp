@@ -250,7 +250,10 @@ void Renderer::Impl::render(const View& view, Framebuffer& framebuffer, const st
         const Image& surfaces = more ? beside.image_ : image;
         if (has_edges) draw_edges(prepared, surfaces, image);
         if (has_ghosts) add_ghosts(view, framebuffer, surfaces.channel("Z"), watch);
-        if (view.samples > 1 && has_colors) add_samples(view, prepared, framebuffer, watch);
+        if (view.samples > 1 && has_colors) {
+            prepare(every_partition, ClaimingRegions::shown);  // add_ghosts() left the ghosts' model
+            add_samples(view, prepared, framebuffer, watch);
+        }
     }
     image.display_values = settings.display_shading;
     image.attributes.clear();
