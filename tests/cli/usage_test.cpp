@@ -152,6 +152,8 @@ TEST_CASE("help lists every option, and every option listed is understood") {
           "--precision double|single",
           "--wait-for-device",
           "--transparent",
+          "--edges",
+          "--light model|headlight|studio",
           "--display-shading",
           "--air",
           "--strict",
