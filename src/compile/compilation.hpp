@@ -33,12 +33,14 @@ public:
     /// The objects that it renders, by the caller's names or as the scene's top objects.
     const std::vector<std::string>& roots() const { return roots_; }
     bool is_kept() const { return is_kept_; }
+    /// Whether with() gave up half way, so that nothing more can be asked of this compilation.
+    bool is_spent() const { return is_spent_; }
 
     /// Compiles the scene with `changes`, to the bits of a scene compiled anew. `before`: a compiled form with the
-    /// changes `of_before`; the result has its appearance. Nothing: the scene has to be compiled anew, and nothing more
-    /// is asked of this compilation. This is so where a part could change other parts: the model's sphere changes,
-    /// there are half-spaces or lights, meshes move, instances become equal, a solid is beyond a limit, or a shell
-    /// between solids is lost; and if a removed part is back, or had a warning.
+    /// changes `of_before`; the result has its appearance. Nothing: the scene has to be compiled anew. This is so where
+    /// a part could change other parts: the model's sphere changes, there are half-spaces or lights, meshes move,
+    /// instances become equal, a solid is beyond a limit, or a shell between solids is lost; and if a removed part is
+    /// back, or had a warning.
     std::optional<CompiledScene> with(const SceneChanges& changes, const CompiledScene& before,
                                       const SceneChanges& of_before);
 
@@ -64,6 +66,7 @@ private:
     std::vector<Warning> warnings_;  ///< of the steps before packing
     bool is_kept_ = false;           ///< packer_ can lay out more than once
     bool is_local_ = true;           ///< a part can be compiled by itself
+    bool is_spent_ = false;
     CompiledScene compiled_;
 };
 

@@ -203,6 +203,7 @@ std::optional<CompiledScene> Compilation::with(const SceneChanges& changes, cons
         made.region_info.own(region).bounds = tree_box(flat_.regions[region].tree, measured_->brlcad_boxes);
     made.bounds = bounds_of(made.region_info);
     made.hash = hash_of(made);
+    is_spent_ = false;
     return made;
 }
 
@@ -215,6 +216,7 @@ bool Compilation::take_out(const SceneChanges& changes, std::vector<std::uint32_
     std::vector<Member> removed;
     std::ranges::set_difference(changes.removed, changes_.removed, std::back_inserter(removed));
     changes_.removed = changes.removed;
+    is_spent_ = true;
     std::optional<Moved> gone = csgrt::take_out(flat_, removed);
     if (!gone || !packer_->remove(gone->instances)) return false;
     std::vector<std::uint32_t> left;
@@ -239,10 +241,15 @@ bool Compilation::place(const SceneChanges& changes, const ChangedMembers& membe
         check(member, names_.matrix(member.first, member.second, changes.matrices));
     for (const auto& [path, matrix] : changes.matrices.alone) check(path.back(), matrix);
     if (!is_sound) return false;
-    changes_.matrices = changes.matrices;
     names_.set_matrices(changes.matrices);
     std::optional<Moved> moved = place_again(flat_, members);
-    if (!moved) return false;
+    if (!moved) {
+        names_.set_matrices(changes_.matrices);
+        place_again(flat_, members);
+        return false;
+    }
+    is_spent_ = true;
+    changes_.matrices = changes.matrices;
     regions = std::move(moved->regions);
     for (const std::uint32_t i : moved->instances) {
         measured_->measure(*scene_, flat_, i);

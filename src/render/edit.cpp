@@ -84,8 +84,8 @@ void check_values(const Scene& values) {
 template <class Change>
 bool Edit::Impl::beside(const Change& change) {
     const std::unique_lock lock(source.kept->mutex, std::try_to_lock);
-    const Compilation* const compilation = lock ? source.kept->of.get() : nullptr;
-    if (scene || compilation == nullptr || compilation->scene() != source.scene) return false;
+    if (scene || !lock || !source.kept->take(source.scene)) return false;
+    const Compilation* const compilation = source.kept->of.get();
     return change(compilation->names(), source.objects.empty() ? compilation->roots() : source.objects, source.changes);
 }
 
@@ -247,10 +247,10 @@ bool Edit::Impl::changes_tables_alone() const {
 std::optional<CompiledScene> Edit::Impl::compiled_in_part() const {
     if (source.changes == before->source.changes) return before->scene;
     const std::unique_lock lock(source.kept->mutex, std::try_to_lock);
-    if (!lock || source.kept->of == nullptr || source.kept->of->scene() != source.scene) return {};
+    if (!lock || !source.kept->take(source.scene)) return {};
     std::unique_ptr<Compilation> of = std::move(source.kept->of);
     std::optional<CompiledScene> made = of->with(source.changes, before->scene, before->source.changes);
-    if (made) source.kept->of = std::move(of);
+    if (!of->is_spent()) source.kept->of = std::move(of);
     return made;
 }
 

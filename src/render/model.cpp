@@ -73,7 +73,10 @@ CompiledScene compiled(const ModelSource& source) {
                                               most_kept);
     CompiledScene scene = made->compiled();
     if (!made->is_kept()) made = nullptr;
-    if (const std::unique_lock lock(source.kept->mutex, std::try_to_lock); lock) std::swap(source.kept->of, made);
+    if (const std::unique_lock lock(source.kept->mutex, std::try_to_lock); lock) {
+        if (source.kept->of != nullptr) std::swap(source.kept->of, source.kept->other);
+        std::swap(source.kept->of, made);
+    }
     return scene;
 }
 

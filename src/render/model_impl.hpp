@@ -42,11 +42,18 @@ private:
     mutable std::optional<Reference> reference_;
 };
 
-/// The last compilation of a Model and of the Models that edits make of it: they share it. A thread that finds it
-/// locked compiles without it: no thread waits, nor does a child of fork().
+/// The last two compilations of a Model and of the Models that edits make of it: they share them. With the second, an
+/// edit of a Model from before an edit that compiled anew is quick, too. A thread that finds them locked compiles
+/// without them: no thread waits, nor does a child of fork().
 struct KeptCompilation {
     std::mutex mutex;
-    std::unique_ptr<Compilation> of;  ///< null: none is kept
+    std::unique_ptr<Compilation> of, other;  ///< null: none is kept
+
+    /// Makes `of` the compilation of a scene. False: none is kept.
+    bool take(const std::shared_ptr<const Scene>& scene) {
+        if (other != nullptr && other->scene() == scene) std::swap(of, other);
+        return of != nullptr && of->scene() == scene;
+    }
 };
 
 /// The input of a Model.

@@ -93,6 +93,9 @@ public:
                 if (below(4) == 0) continue;  // the next step begins where this one began
                 before = *made;
                 before_now = now;
+            } else if (!compilation->is_spent() && below(2) == 0) {
+                ++whole;
+                now = before_now;
             } else {
                 ++whole;
                 scene = std::make_shared<const Scene>(placed);

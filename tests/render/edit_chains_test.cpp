@@ -203,6 +203,32 @@ TEST_CASE("one of several instances moves without compiling the scene again", "[
     for (const Model& model : {other, sibling, fewer, both}) require_compiled_anew(model);
 }
 
+TEST_CASE("a Model from before an edit that compiled the scene anew is edited in part", "[promise:edits]") {
+    Scene scene;
+    scene.objects = {ball("far", {-40, -40, -40}),
+                     ball("farther", {40, 40, 40}),
+                     ball("ball", {0, 0, 0}),
+                     region("corners", {leg("far"), leg("farther"), op(Operator::union_, 2)}),
+                     region("a", {leg("ball")}),
+                     region("b", {leg("ball")}),
+                     region("c", {leg("ball", moved(9, 0, 0))}),
+                     group("all", {leg("corners"), leg("a"), leg("b"), leg("c"), op(Operator::union_, 4)})};
+    const Model start(scene);
+    for (int i = 1; i < 4; ++i) {
+        Edit edit(start);
+        edit.move("/all/a", moved(0, i, 0));  // two instances become of one
+        if (i == 2) edit.add("all", Operator::union_, "ball", moved(0, 0, i));
+        const Model anew = edit.commit();
+        CHECK(&anew.solids()[0] != &start.solids()[0]);
+        require_compiled_anew(anew);
+        for (const Model& from : {start, anew}) {
+            const Model next = Edit(from).move("/all/c", moved(0, 0, i)).commit();
+            CHECK(&next.solids()[0] == &from.solids()[0]);
+            require_compiled_anew(next);
+        }
+    }
+}
+
 TEST_CASE("threads that edit one model at once get the models that are compiled from their scenes", "[promise:edits]") {
     const Model start(parse_scene(R"({"csgrt": 1,
         "solids": {"far": {"type": "sphere", "center": [-40, -40, -40], "radius": 1},

@@ -6,6 +6,7 @@
 #include <span>
 #include <unordered_map>
 #include <unordered_set>
+#include <utility>
 
 #include "compile/flatten/flattener.hpp"
 #include "compile/flatten/instance_table.hpp"
@@ -439,17 +440,27 @@ std::optional<Moved> place_again(FlatScene& flat, const ChangedMembers& changed)
     count_uses(flat);
     for (const auto& [instance, place] : places) {
         const auto& [matrix, leaves] = place;
-        Instance& placed = flat.instances[instance];
-        if (same_bits(*placed.matrix, part.matrices[matrix])) continue;
+        if (same_bits(*flat.instances[instance].matrix, part.matrices[matrix])) continue;
         if (leaves != uses[instance]) return {};
-        auto& own = flat.placed_again[instance];
-        own = std::make_unique<Matrix>(part.matrices[matrix]);
-        placed.matrix = own.get();
         moved.instances.push_back(instance);
     }
     std::sort(moved.instances.begin(), moved.instances.end());
-    if (has_equal(flat, moved.instances)) return {};
-    return moved;
+    std::vector<const Matrix*> earlier;
+    for (const std::uint32_t i : moved.instances)
+        earlier.push_back(std::exchange(flat.instances[i].matrix, &part.matrices[places.at(i).first]));
+    const bool are_equal = has_equal(flat, moved.instances);
+    for (std::size_t k = 0; k < earlier.size(); ++k) {
+        const std::uint32_t i = moved.instances[k];
+        const Matrix*& matrix = flat.instances[i].matrix;
+        if (are_equal) {
+            matrix = earlier[k];
+        } else {
+            auto own = std::make_unique<Matrix>(*matrix);
+            matrix = own.get();
+            flat.placed_again[i] = std::move(own);
+        }
+    }
+    return are_equal ? std::nullopt : std::optional(std::move(moved));
 }
 
 std::optional<Moved> take_out(FlatScene& flat, const std::vector<Member>& removed) {

@@ -65,7 +65,7 @@ struct Moved {
 };
 /// Gives the instances their matrices again, when those of some members have changed in the Names. The arguments of
 /// flatten() must still be there. Nothing: the scene has to be flattened anew, since other instances are equal now, or
-/// much has moved; the flattened scene is of no use any more.
+/// much has moved; instances are as before, and a call with the earlier matrices in the Names makes all as before.
 std::optional<Moved> place_again(FlatScene& flat, const ChangedMembers& changed);
 
 /// Takes out the regions to which some members lead, which are operands of unions, and returns their numbers and those
