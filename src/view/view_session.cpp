@@ -111,12 +111,12 @@ PixelRectangle with_border(const PixelRectangle& part, const View& view) {
 /// picture's form.
 void put(const Image& image, const View& view, const PixelRectangle& part, Renderer& renderer, Image& whole) {
     if (whole.width != view.width || whole.height != view.height || whole.names != image.names) {
-        View nothing = view;  // A picture of nothing is memory alone, and its drawing can be ended.
-        nothing.part = {};
-        nothing.samples = 1;
-        nothing.clip = {{{0, 0, 1}, -1e12}};
+        View blank = view;  // A picture of nothing is memory alone, and its drawing can be ended.
+        blank.part = {};
+        blank.samples = 1;
+        blank.clip = {{{0, 0, 1}, -1e12}};
         Framebuffer made;
-        renderer.render(nothing, made);
+        renderer.render(blank, made);
         whole = made.take();
     }
     const auto size = [](int count) { return static_cast<std::size_t>(count); };
