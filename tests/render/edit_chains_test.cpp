@@ -197,10 +197,10 @@ TEST_CASE("one of several instances moves without compiling the scene again", "[
     CHECK(fewer.region("/all/g/b") == -1);
     CHECK(fewer.region("/all/g@2/b") >= 0);
     // An edit of one instance after a removal from all instances keeps the removal.
-    const Model both = Edit(Edit(start).remove("/all/g/b").commit()).move("/all/g@2/a", matrix).commit();
-    CHECK(both.regions().size() == 3);
-    CHECK(both.scene().find("g~2") != nullptr);
-    for (const Model& model : {other, sibling, fewer, both}) require_compiled_anew(model);
+    const Model after = Edit(Edit(start).remove("/all/g/b").commit()).move("/all/g@2/a", matrix).commit();
+    CHECK(after.regions().size() == 3);
+    CHECK(after.scene().find("g~2") != nullptr);
+    for (const Model& model : {other, sibling, fewer, after}) require_compiled_anew(model);
 }
 
 TEST_CASE("a Model from before an edit that compiled the scene anew is edited in part", "[promise:edits]") {

@@ -214,12 +214,12 @@ TEST_CASE("a path tells its matrix, its placement, its region and what is below 
     CHECK(model.regions("/").size() == 7);
     CHECK(model.regions("/all/whee").empty());
     const auto listed = [](const Model& of, const std::string& path) {
-        std::string text;
+        std::string rows;
         for (const ChildInfo& child : of.children(path)) {
             CHECK(child.path.ends_with("/" + child.name));
-            text += child.path + " " + child.object + " " + child.type + " " + std::to_string(int(child.op)) + "\n";
+            rows += child.path + " " + child.object + " " + child.type + " " + std::to_string(int(child.op)) + "\n";
         }
-        return text;
+        return rows;
     };
     CHECK(listed(model, "/") == "/all all combination 1\n");
     CHECK(listed(model, "all/") ==

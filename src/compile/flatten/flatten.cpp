@@ -350,7 +350,8 @@ struct FlatWalk {
 FlatScene flatten(const Scene& scene, const Names& names, const std::vector<std::uint64_t>& instances,
                   const std::vector<std::string>& objects, bool air, std::uint64_t max_instances) {
     FlatScene result;
-    result.walk = std::make_shared<FlatWalk>(Source{scene, names, instances, ReferenceLimit(scene, max_instances)});
+    result.walk =
+        std::make_shared<FlatWalk>(FlatWalk{.source = {scene, names, instances, ReferenceLimit(scene, max_instances)}});
     const Source& source = result.walk->source;
     const Found& found = result.walk->found = find_regions(source, objects, air, max_instances);
     const std::vector<NoRegion> no_regions = add_trees(source, found, result);
