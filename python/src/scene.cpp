@@ -435,7 +435,7 @@ void bind_scene(nb::module_& module) {
                  const Model model = s.model();
                  if (solid < 0 || static_cast<std::size_t>(solid) >= model.solids().size())
                      throw nb::index_error(("there is no solid " + std::to_string(solid)).c_str());
-                 const std::optional<Shape> shape = model.solid(static_cast<std::size_t>(solid));
+                 const std::optional<csgrt::Shape> shape = model.solid(static_cast<std::size_t>(solid));
                  if (!shape) return {};
                  return json_text(*shape);
              })
