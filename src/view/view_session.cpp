@@ -18,6 +18,7 @@
 
 #include <csgrt/edit.hpp>
 #include <csgrt/error.hpp>
+#include <csgrt/scene_io.hpp>
 
 #include "base/private_folder.hpp"
 #include "form/written_back.hpp"
@@ -51,6 +52,19 @@ Json to_json(const Model& model, std::int64_t solid) {
     if (solid < 0 || solid >= static_cast<std::int64_t>(model.solids().size())) return nullptr;
     const SolidInfo& info = model.solids()[static_cast<std::size_t>(solid)];
     return {{"name", info.name}, {"type", info.type}};
+}
+
+/// How far a hit's region goes on along the inward normal; null if it is open.
+Json thickness_of(const Model& model, const Pick& pick) {
+    constexpr double far = std::numeric_limits<double>::infinity();
+    const Ray inward{pick.point, -1.0 * pick.normal};
+    Partitions rows;
+    model.partitions(std::span(&inward, 1), rows, {}, {.all = {-far, far}});
+    const double near = std::max(2 * model.tolerance(), 1e-9 * (1 + std::abs(pick.t)));
+    for (std::size_t i = 0; i < rows.region_ids.size(); ++i)
+        if (rows.region_ids[i] == pick.region && rows.t_in[i] <= near && rows.t_out[i] > near)
+            return distance(rows.t_in[i] < -near ? rows.t_out[i] : rows.t_out[i] - rows.t_in[i]);  // at a cut, or not
+    return nullptr;
 }
 
 /// A camera with every member that a page has. A camera given by its eye becomes upright.
@@ -429,7 +443,12 @@ Json ViewSession::pick(const Request& request) {
     if (pick.region >= 0) answer["point"] = to_json(pick.point);
     if (request.flag("brief")) return answer;
     answer["solid"] = to_json(model, pick.solid);
-    if (pick.region >= 0) answer.update({{"t", distance(pick.t)}, {"normal", to_json(pick.normal)}});
+    if (pick.solid >= 0)
+        if (const std::optional<Shape> shape = model.solid(static_cast<std::size_t>(pick.solid)))
+            answer["solid"]["shape"] = Json::parse(json_text(*shape));
+    if (pick.region >= 0)
+        answer.update(
+            {{"t", distance(pick.t)}, {"normal", to_json(pick.normal)}, {"thickness", thickness_of(model, pick)}});
     Json partitions = Json::array(), overlaps = Json::array();
     for (const Partition& part : pick.along.partitions)
         partitions.push_back({{"region", part.region},

@@ -20,3 +20,26 @@ def scene(**boxes):
                              "all": {"tree": {"union": [*(n for n in region if n not in ("back.r", "twin.r")), "pair",
                                                         HOSTILE]}}}}
     return json.dumps(made)
+
+
+def bodies():
+    """Bodies of known sizes at y = 0, 20, 40, ..., seen from +x. All but three of them are turned."""
+    solids = {"ball": {"type": "sphere", "center": [0, 0, 0], "radius": 7.3},
+              "egg": {"type": "ell", "center": [0, 0, 0], "a": [3, 0, 0], "b": [0, 5, 0], "c": [0, 0, 7]},
+              "rod": {"type": "cylinder", "base": [0, 0, -10], "height": [0, 0, 20], "radius": 4.7},
+              "cone": {"type": "cone", "base": [0, 0, -5], "height": [0, 0, 10], "radius": 6, "top_radius": 2},
+              "ring": {"type": "tor", "center": [0, 0, 0], "axis": [1, 0, 0], "radius": 8, "tube": 2.1},
+              "block": {"type": "box", "low": [-4, -5, -6], "high": [4, 5, 6]},
+              "pill": {"type": "part", "base": [0, 0, -3], "height": [0, 0, 6], "radius": 4, "top_radius": 3},
+              "plate": {"type": "box", "low": [-3, -5, -5], "high": [3, 5, 5]},
+              "behind": {"type": "box", "low": [-3, -5, -5], "high": [-0.7, 5, 5]},
+              "tilted": {"type": "box", "low": [-3, -5, -5], "high": [3, 5, 5]}}
+    turns = {**dict.fromkeys(solids, {"axis": [1, 2, 3], "angle": 40}), "tilted": {"axis": [0, 0, 1], "angle": 30}}
+    for name in ("ball", "plate", "behind"):
+        turns[name] = {"axis": [1, 0, 0], "angle": 0}
+    legs = [{"object": name + ".r", "translate": [0, 20 * i, 0], "rotate": turns[name]}
+            for i, name in enumerate(solids)]
+    return json.dumps({
+        "csgrt": 1, "camera": {"azimuth": 0, "elevation": 0, "center": [0, 90, 0], "size": 210}, "solids": solids,
+        "combinations": {**{name + ".r": {"tree": name, "region": True, "id": i} for i, name in enumerate(solids)},
+                         "all": {"tree": {"union": legs}}}})

@@ -18,7 +18,7 @@ import urllib.parse
 
 try:
     import figures
-    from boxes import HOSTILE, scene
+    from boxes import HOSTILE, bodies, scene
     from page import BROWSER, DRIVER, FIREFOX, GECKODRIVER, Keys, Page, Server, new_browser, new_firefox
 except ImportError as missing:
     print(f"SKIPPED: {missing} (Debian, Ubuntu: apt-get install python3-selenium)")
@@ -169,6 +169,56 @@ class Browser(unittest.TestCase):
         self.assertAlmostEqual(float(said[5]), 50, delta=2 * mm)
         for word, value in (("(dx", 0), ("dy", -30), ("dz", -40)):
             self.assertAlmostEqual(float(said[said.index(word) + 1].rstrip(",)")), value, delta=2 * mm)
+
+    def test_measurements_of_known_bodies(self):
+        wanted = {
+            "ball": {"diameter": 14.6, "thickness along the normal": 14.6},
+            "egg": {"diameter 1": 6, "diameter 2": 10, "diameter 3": 14},
+            "rod": {"diameter": 9.4, "height": 20, "thickness along the normal": 9.4},
+            "cone": {"diameter at the base": 12, "diameter at the top": 4, "height": 10},
+            "ring": {"diameter of the ring's middle": 16, "diameter of the tube": 4.2, "diameter": 20.2,
+                     "thickness along the normal": 4.2},
+            "block": {"edge 1": 10, "edge 2": 12, "edge 3": 8, "thickness along the normal": 8},
+            "pill": {"diameter at the base": 8, "diameter at the top": 6, "length of the axis": 6},
+            "plate": {"edge x": 6, "edge y": 10, "edge z": 10, "thickness along the normal": 6,
+                      "thickness along the ray": 6},
+            "behind": {"thickness along the normal": 2.3, "distance from the parallel face before": 3.7},
+            "tilted": {"thickness along the normal": 6, "angle to the face before": 30}}
+        with self.page_of(self.write("bodies.json", bodies())) as page:
+            for i, (name, sizes) in enumerate(wanted.items()):
+                page.click(*page.screen([5, 20 * i, 7 if name == "ring" else 1]))
+                self.assertEqual(page.text("selected-path"), f"/all/{name}.r")
+                found = {one["what"]: one["value"] for one in page.js("return measured()")}
+                for what, value in sizes.items():
+                    self.assertLess(abs(found[what] - value), 1e-12 * 20, (name, what, found))
+            self.assertEqual(page.press("along-normal").view()["camera"]["azimuth"], 30)
+            for i in (0, 1):
+                page.js("document.querySelectorAll('#measured button')[arguments[0]].click()", i)
+            page.idle()
+            kept = page.js("return kept")
+            self.assertEqual([one["what"] for one in kept], ["thickness along the normal", "thickness along the ray"])
+            rows = page.js("return csv()").splitlines()
+            self.assertEqual(len(rows), 3)
+            self.assertEqual(float(rows[1].split(",")[2]), kept[0]["value"])
+            page.press("toggle-save").press("copy-link")
+            link = page.text("link")
+            for box in (False, True):
+                path = os.path.join(WORK, "bodies.png")
+                if os.path.exists(path):
+                    os.remove(path)
+                page.press("save-png")
+                page.wait(lambda: os.path.exists(path) and os.path.getsize(path) > 0)
+                with open(path, "rb") as file:
+                    most, count = page.difference(file.read())
+                self.assertEqual(most > 0, box)
+                page.press("save-marks")
+            self.assertGreater(count, page.js("return size.width * size.height / 2"))  # the ground
+            page.press("undo")
+            self.assertEqual(page.js("return kept.length"), 1)
+            other = Page(self.driver, link)
+            self.assertEqual(other.js("return kept"), kept)
+            other.js("document.querySelector('#kept-rows button').click()")
+            self.assertEqual(other.idle().js("return kept"), kept[1:])
 
     def test_hidden_ghost_isolated_coloured(self):
         page, at = self.page, self.middle

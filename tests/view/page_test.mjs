@@ -120,14 +120,16 @@ test("a link gives what it was made of; what is wrong with others is said", () =
   const view = {...usual, clip: [{normal: [1, 0, 0], distance: 2}], looks: [{path: "/a'%#", state: "ghost"}],
                 edges: false, light: "model", ground: [[0, 0, 0], [1, 0.5, 1]]};
   const page = {slice: {plane: 0, place: [1, 2], mm: 0.5}, selected: ["/a"],
-                answer: {camera: usual.camera, width: 9, height: 8, x: 3, y: 4, from: [1, 2, 3], to: [4, 5, 6]}};
+                answer: {camera: usual.camera, width: 9, height: 8, x: 3, y: 4, from: [1, 2, 3], to: [4, 5, 6]},
+                measurements: [{what: "a", value: 1, unit: "mm", part: "/a", ends: [[1, 2, 3], [4, 5, 6]]}]};
   const read = text => link.read_link(text, usual, {show: ["color"], light: ["studio", "model"]});
   assert.deepEqual(read(link.written_link(view, page).slice(1)), {view, ...page});
   for (const [text, why] of [["%7Bbad", /cut short/], ["%E0%A4", /cut short/], ["[1]", /object/], ["null", /object/],
     ['{"looks":[null]}', /looks/], ['{"clip":[{}]}', /clip/], ['{"camera":{"view_size":0}}', /camera/],
     ['{"show":"all"}', /show/], ['{"light":"sun"}', /light/], ['{"edges":1}', /edges/], ['{"ground":[1]}', /ground/],
     ['{"slice":{"plane":0}}', /slice/], ['{"selected":[1]}', /selected/],
-    ['{"answer":{"x":1}}', /answer/]]) assert.throws(() => read(text), why, text);
+    ['{"answer":{"x":1}}', /answer/], ['{"measurements":[{"value":"1"}]}', /measurements/]])
+    assert.throws(() => read(text), why, text);
 });
 
 test("the search gives the shortest path whose last leg ends the match", () => {

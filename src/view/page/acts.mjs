@@ -5,13 +5,14 @@ import {build_planes} from "./cut.mjs";
 import {by} from "./dom.mjs";
 import {changed} from "./frames.mjs";
 import {apply_looks, with_looks, with_state_of_all, without_colors} from "./looks.mjs";
+import {hold_kept, kept} from "./measure.mjs";
 import {slice_changed} from "./slice.mjs";
 import {bounds, range, regions, view} from "./state.mjs";
 import {draw_tree} from "./tree.mjs";
 import {Steps} from "./undo.mjs";
 
 const steps = new Steps();
-const present = () => ({looks: view.looks, clip: view.clip, answer, previous});
+const present = () => ({looks: view.looks, clip: view.clip, answer, previous, kept});
 /// Notes the present looks, cuts and measurements as a step, to which undo comes back.
 export function remember(moving = false) {
   steps.note(present(), moving, performance.now());
@@ -27,6 +28,7 @@ export function go_step(count, event) {
   if (!state) return;
   Object.assign(view, {looks: state.looks, clip: state.clip});
   hold_answer(state);
+  hold_kept(state.kept);
   build_planes();
   looked(event);
   show_steps();

@@ -1,12 +1,13 @@
 // The address: it has the view after #, the slice, the selection and the measurement. Back closes what is open.
 import {looked} from "./acts.mjs";
-import {answer, ask_again, previous, select} from "./ask.mjs";
+import {answer, ask_again, draw_answer, previous, select} from "./ask.mjs";
 import {build_planes} from "./cut.mjs";
 import {by, say} from "./dom.mjs";
 import {set_camera} from "./frames.mjs";
 import {escape_all} from "./keys.mjs";
 import {checked, read_link, written_link} from "./link.mjs";
 import {lost_paths} from "./looks.mjs";
+import {hold_kept, kept} from "./measure.mjs";
 import {open_panel} from "./panels.mjs";
 import {open_slice, slice} from "./slice.mjs";
 import {ended, hold, model, regions, selection, view} from "./state.mjs";
@@ -21,7 +22,9 @@ export function keep_address() {
 }
 const present_link = () => written_link(view, {
   slice: slice.plane < 0 ? null : {plane: slice.plane, place: slice.place, mm: slice.mm}, selected: selection,
-  answer: answer && {...answer.asked, ...answer.point && {to: answer.point}, ...previous && {from: previous}}});
+  measurements: kept,
+  answer: answer && {...answer.asked, ...answer.point && {to: answer.point},
+                     ...previous && {from: previous.point, face: previous.normal}}});
 export function write_address() {
   if (!ended) history.replaceState(history.state, "", present_link());
 }
@@ -41,7 +44,8 @@ export function read_address() {
     say("address", `The link in the address is not used: ${error.message}. The page shows the view as it was.`);
   }
 }
-function use_link({view: given, slice: part, selected: paths, answer: asked}) {
+function use_link({view: given, slice: part, selected: paths, answer: asked, measurements}) {
+  hold_kept(measurements);
   set_view(given);
   const lost = lost_paths(regions, [...given.looks.map(({path}) => path), ...paths]);
   say("lost", !lost.length ? "" : `The link names ${lost.length === 1 ? "a part that is" : lost.length +
@@ -54,6 +58,7 @@ function use_link({view: given, slice: part, selected: paths, answer: asked}) {
   }
   set_camera(given.camera);
   if (asked) ask_again(asked);
+  else draw_answer();
 }
 
 // An entry of the history stands before the page's: Back comes there, and the page goes on.

@@ -10,11 +10,13 @@ import {pointers} from "./mouse.mjs";
 import {ask, attempt} from "./net.mjs";
 import {clamp, css, dot, hex, ink_on, minus, number, numbers} from "./numbers.mjs";
 import {draw_overlay} from "./overlay.mjs";
+import {draw_measurements} from "./measure.mjs";
 import {open_panel} from "./panels.mjs";
+import {described} from "./shapes.mjs";
 import {color_of, ended, hold, model, path_of, range, regions, selected, selection, view} from "./state.mjs";
 import {draw_tree, reveal, state_word} from "./tree.mjs";
 
-export let answer = null, previous = null;  // the last answer, and the point that was clicked before
+export let answer = null, previous = null;  // the last answer; point and normal of the click before
 /// The boxes of the selected parts that are bounded, and what the server told of all of them together.
 export let selected_boxes = [];
 let selected_row = null, selected_ranges = [];
@@ -105,7 +107,7 @@ export async function pick(x, y) {
   const begun = performance.now(), made = await attempt("pick", () => ask_pixel(x, y, false));
   if (!made) return null;
   open_panel("answer", true);
-  previous = answer?.point ?? previous;
+  previous = answer?.point ? {point: answer.point, normal: answer.normal} : previous;
   answer = made;
   const overlap = view.show === "overlap" && seen_overlap(made);
   select(...overlap ? paths_of(overlap) : made.region === null ? [] : [path_of(made.region)]);
@@ -116,18 +118,22 @@ export async function pick(x, y) {
 }
 export function draw_answer() {
   by("hit").hidden = !answer;
+  draw_measurements();
   draw_overlay();
   if (!answer) return;
-  const {partitions: parts, overlaps, point, solid} = answer;
+  const {partitions: parts, overlaps, point, solid} = answer, shape = described(solid?.shape);
   by("hit-title").textContent = point ? `Last click: ${path_of(answer.region)}` : "Last click";
   const overlap = seen_overlap(answer);
   facts("hit-facts", [...overlap ? [["overlap", paths_of(overlap).join(" and ")]] : [],
     ...!point ? [["hit", "nothing"]] : [
-    ["solid", solid ? `${solid.name} (${solid.type})` : "a cut"], ["point", numbers(point)],
+    ["solid", solid ? `${solid.name} (${solid.type})` : "a cut"], ...shape ? [["form", shape.name]] : [],
+    ...shape?.center ? [["centre", numbers(shape.center)]] : [], ...shape?.axis ? [["axis", numbers(shape.axis)]] : [],
+    ["point", numbers(point)],
     ["distance", `${number(answer.t)} from the ray's start`], ...!answer.normal ? [] :
       [["normal", numbers(answer.normal, 5)],
        ["ray to normal", `${number(angle_of(answer), 3)} degrees: thicknesses below are along the ray`]]]]);
-  const apart = point && previous ? minus(point, previous) : null;
+  by("along-normal").hidden = !answer.normal;
+  const apart = point && previous ? minus(point, previous.point) : null;
   by("measure").hidden = !apart;
   if (apart) by("measure").textContent = `From the point clicked before: ${number(Math.hypot(...apart))} mm ` +
     `(dx ${number(apart[0])}, dy ${number(apart[1])}, dz ${number(apart[2])})`;
@@ -227,20 +233,23 @@ export function copy(source, button) {
 export const hover = {place: null, busy: false};
 /// Asks again what a link's answer was: `asked` has the camera, the picture's size and the pixel, `to` the point that
 /// was hit, `from` the point that was clicked before.
-export async function ask_again({from, to, ...asked}) {
+export async function ask_again({from, face, to, ...asked}) {
   const camera = asked.camera, made = await attempt("pick", () => ask("pick", {...asked, view: {...view, camera}}));
   if (!made || made.generation !== model.generation) return;
-  hold_answer({answer: {...made, ...to && hit_at(made, to), asked}, previous: from ?? null});
+  hold_answer({answer: {...made, ...to && hit_at(made, to), asked},
+               previous: from ? {point: from, normal: face ?? null} : null});
   draw_answer();
   draw_selected();
   remember();
 }
-/// The hit at a point of an answer's ray. It was the first hit before parts were hidden or cut away.
-export function hit_at({partitions, ray}, point) {
+/// The hit at a point of an answer's ray, if it is not the answer's own. It was the first hit before parts
+/// were hidden or cut away.
+export function hit_at({partitions, ray, t: made_t}, point) {
   const t = t_of(ray, point), most = 1e-6 * (1 + Math.abs(t));
   const part = partitions.find(p => (p.in ?? -Infinity) <= t + most && (p.out ?? Infinity) > t + most);
   const begins = part && part.in !== null && Math.abs(part.in - t) <= most;
-  return part && {point, t, region: part.region, solid: begins ? part.in_solid : null,
+  if (made_t !== undefined && Math.abs(made_t - t) <= most) return {};
+  return part && {point, t, thickness: null, region: part.region, solid: begins ? part.in_solid : null,
                   normal: begins ? part.in_normal : null};
 }
 /// Names the region under the mouse: one question at a time, for the newest place, and none while something moves.

@@ -2,8 +2,10 @@
 import {STATES} from "./looks.mjs";
 
 const MOST_SELECTED = 200;
-export const written_link = (view, {slice, selected, answer}) => "#" + encodeURIComponent(JSON.stringify({...view,
-  ...slice && {slice}, ...selected.length && selected.length <= MOST_SELECTED && {selected}, ...answer && {answer}}));
+export const written_link = (view, {slice, selected, answer, measurements}) =>
+  "#" + encodeURIComponent(JSON.stringify({...view, ...slice && {slice},
+    ...selected.length && selected.length <= MOST_SELECTED && {selected}, ...answer && {answer},
+    ...measurements.length && {measurements}}));
 
 function expect(good, text) {
   if (!good) throw new Error(text);
@@ -41,13 +43,17 @@ export function read_link(text, usual, choices) {
   } catch {
     throw new Error("it is cut short or damaged");
   }
-  const view = checked(given, usual, choices), {slice, selected = [], answer} = given;
+  const view = checked(given, usual, choices), {slice, selected = [], answer, measurements = []} = given;
   expect(Array.isArray(selected) && selected.every(path => typeof path === "string"), "selected is a list of paths");
   expect(!slice || is_count(slice.plane) && slice.plane < view.clip.length && slice.mm > 0 &&
          Array.isArray(slice.place) && slice.place.length === 2 && slice.place.every(Number.isFinite),
          "its slice is none");
   expect(!answer || [answer.width, answer.height, answer.x, answer.y].every(is_count) && answer.x < answer.width &&
-         answer.y < answer.height && [answer.from, answer.to].every(p => !p || is_vector(p)),
+         answer.y < answer.height && [answer.from, answer.to, answer.face].every(p => !p || is_vector(p)),
          "its answer has no pixel");
-  return {view, slice, selected, answer: answer && {...answer, camera: checked_camera({...answer.camera})}};
+  expect(Array.isArray(measurements) && measurements.every(one => one && [one.what, one.unit, one.part].every(text =>
+    typeof text === "string") && Number.isFinite(one.value) && one.ends?.length === 2 && one.ends.every(is_vector)),
+         "its measurements are none");
+  return {view, slice, selected, measurements,
+          answer: answer && {...answer, camera: checked_camera({...answer.camera})}};
 }

@@ -1,12 +1,12 @@
 // The model as the server has it, and the start.
 import {act, forget_answers, go_step} from "./acts.mjs";
 import {checked_view, read_address} from "./address.mjs";
-import {ask_selected, copy, draw_answer} from "./ask.mjs";
+import {answer, ask_selected, copy, draw_answer} from "./ask.mjs";
 import {size} from "./camera.mjs";
 import {add_plane, build_planes} from "./cut.mjs";
 import {set_ground, set_light} from "./display.mjs";
 import {by, el, named, notes, rove_by_key, say} from "./dom.mjs";
-import {MOST_SIDE, canvas, changed, loop, pump} from "./frames.mjs";
+import {MOST_SIDE, canvas, changed, loop, pump, set_camera} from "./frames.mjs";
 import {KEYS, MOUSE, run_of, with_selected} from "./keys.mjs";
 import {apply_looks, region_table} from "./looks.mjs";
 import {ask, ask_model, attempt} from "./net.mjs";
@@ -15,6 +15,7 @@ import {draw_overlay, overlay} from "./overlay.mjs";
 import {SECTIONS, draw_warnings, restore_panels, toggle_panel} from "./panels.mjs";
 import {note_rate} from "./rates.mjs";
 import {copy_link, open_view, save} from "./save.mjs";
+import {angles_of} from "./shapes.mjs";
 import {open_slice, refit_slice, slice_changed} from "./slice.mjs";
 import {ended, hold, model, range, regions, selection, view} from "./state.mjs";
 import {build_tree, draw_tree, list_rows, tree_key} from "./tree.mjs";
@@ -88,6 +89,9 @@ function watch_size() {
   new ResizeObserver(slice_changed).observe(by("slice-canvas"));
   new ResizeObserver(draw_tree).observe(by("tree"));
 }
+function look_along_normal(event) {
+  set_camera({...angles_of(answer.normal), center: answer.point}, event);
+}
 function connect() {
   const on = (id, run, name = "click") => by(id).addEventListener(name, run);
   for (const name of ["parts", ...SECTIONS]) on("toggle-" + name, () => toggle_panel(name));
@@ -103,7 +107,8 @@ function connect() {
     "undo": event => go_step(-1, event), "redo": event => go_step(1, event),
     "copy-shoot": event => copy("shoot", event.target), "copy-command": event => copy("command", event.target),
     "copy-link": copy_link,
-    "save-png": save.png, "save-exr": save.exr, "save-view": save.view, "get-command": save.command,
+    "save-png": save.png, "save-csv": save.csv, "save-exr": save.exr,
+    "save-view": save.view, "get-command": save.command, "along-normal": look_along_normal,
     "add-plane": add_plane, "slice-fit": refit_slice, "slice-close": () => open_slice(-1),
     "close-help": () => by("help").close(), "ground-own": () => set_ground(false),
     "end": () => by("ask-end").showModal(),

@@ -5,6 +5,7 @@ import {set_plane} from "./cut.mjs";
 import {by, svg} from "./dom.mjs";
 import {loop, rest} from "./frames.mjs";
 import {cross_hair} from "./keys.mjs";
+import {kept_marks} from "./measure.mjs";
 import {along, corners, css, minus, unit} from "./numbers.mjs";
 import {bounds, color_of, model, path_of, selection, view} from "./state.mjs";
 
@@ -12,7 +13,7 @@ export const overlay = by("overlay"), marks = {
   planes: svg("path", {stroke: "var(--accent)", "stroke-opacity": 0.75, "stroke-dasharray": "5 4"}),
   box: svg("path", {stroke: "var(--chosen)", "stroke-opacity": 0.8}),
   measure: svg("path", {stroke: "var(--ink)", "stroke-dasharray": "4 3", "stroke-width": 1.5}),
-  cross: svg("path", {stroke: "var(--ink)", "stroke-width": 1.5}), ray: svg("g")};
+  cross: svg("path", {stroke: "var(--ink)", "stroke-width": 1.5}), ray: svg("g"), kept: svg("g")};
 const handles = [0, 1, 2].map(i => {
   const wide = svg("path", {class: "wide"}), shaft = svg("path"), grip = svg("circle", {r: 8});
   const group = svg("g", {class: "handle", id: "handle-" + i}), handle = {group, wide, shaft, grip, drag: null};
@@ -47,9 +48,11 @@ export function draw_overlay() {
   const cutting = by("cut").hidden ? [] : view.clip;
   marks.planes.setAttribute("d", screen_path(camera, cutting.flatMap(outline)));
   marks.box.setAttribute("d", screen_path(camera, selected_boxes.flatMap(box_edges)));
-  marks.measure.setAttribute("d", answer?.point && previous ? screen_path(camera, [[previous, answer.point]]) : "");
+  const apart = answer?.point && previous ? [[previous.point, answer.point]] : [];
+  marks.measure.setAttribute("d", screen_path(camera, apart));
   marks.cross.setAttribute("d", at ? `M${x - 12} ${y}h9m6 0h9M${x} ${y - 12}v9m0 6v9` : "");
   marks.ray.replaceChildren(...ray_lines(camera));
+  marks.kept.replaceChildren(...kept_marks(camera));
   handles.forEach(({group, wide, shaft, grip}, i) => {
     const foot = cutting[i] && on_screen(camera, foot_of(cutting[i]));
     group.style.display = foot ? "" : "none";

@@ -4,7 +4,9 @@ import {copy} from "./ask.mjs";
 import {size} from "./camera.mjs";
 import {by, el} from "./dom.mjs";
 import {canvas, loop} from "./frames.mjs";
+import {csv} from "./measure.mjs";
 import {ask, attempt, post} from "./net.mjs";
+import {overlay} from "./overlay.mjs";
 import {model, regions, view} from "./state.mjs";
 
 function download(blob, name) {
@@ -14,8 +16,28 @@ function download(blob, name) {
 }
 const file_name = end => model.name.replace(/\.\w+$/, "").replace(/[^\w.-]+/g, "_") + end;
 const full_size = () => ({width: size.width, height: size.height});
+/// The picture as shown: on its ground, and with what is drawn over it.
+async function with_marks() {
+  const made = el("canvas", {width: canvas.width, height: canvas.height}), on = made.getContext("2d");
+  const ground = on.createLinearGradient(0, 0, 0, made.height), copy = overlay.cloneNode(true), image = new Image();
+  const value = name => getComputedStyle(overlay).getPropertyValue(name).trim();
+  ["--ground-top", "--ground-bottom"].forEach((name, i) => ground.addColorStop(i, value(name)));
+  on.fillStyle = ground;
+  on.fillRect(0, 0, made.width, made.height);
+  on.drawImage(canvas, 0, 0);
+  for (const handle of copy.querySelectorAll(".handle")) handle.remove();
+  for (const name of ["--ink", "--accent", "--chosen", "--ground-bottom"]) copy.style.setProperty(name, value(name));
+  for (const name of ["width", "height"]) copy.setAttribute(name, made[name]);
+  copy.setAttribute("fill", "none");
+  image.src = "data:image/svg+xml," + encodeURIComponent(new XMLSerializer().serializeToString(copy));
+  await image.decode();
+  on.drawImage(image, 0, 0);
+  return made;
+}
 export const save = {
-  png: () => canvas.toBlob(blob => download(blob, file_name(".png"))),
+  png: async () => (by("save-marks").checked ? await with_marks() : canvas)
+    .toBlob(blob => download(blob, file_name(".png"))),
+  csv: () => download(new Blob([csv()], {type: "text/csv"}), file_name("-measurements.csv")),
   exr: () => attempt("exr", async () =>
     download(await (await post("exr", {view, ...full_size()})).blob(), file_name(".exr"))),
   view: () => download(new Blob([JSON.stringify(view, null, 1) + "\n"], {type: "text/json"}), file_name("-view.json")),
