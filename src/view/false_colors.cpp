@@ -36,7 +36,7 @@ std::uint32_t of_region(std::uint32_t number) {
     return of_hue(golden * number, number % 3 == 0 ? 1 : number % 3 == 1 ? 0.8 : 0.62);
 }
 
-void paint_depth(std::span<const float> depth, std::span<std::uint32_t> pixels) {
+std::optional<std::pair<double, double>> paint_depth(std::span<const float> depth, std::span<std::uint32_t> pixels) {
     float low = std::numeric_limits<float>::infinity(), high = -low;
     for (const float z : depth) {
         if (!std::isfinite(z)) continue;
@@ -46,6 +46,8 @@ void paint_depth(std::span<const float> depth, std::span<std::uint32_t> pixels) 
     const double range = high > low ? double{high} - low : 1;
     for (std::size_t i = 0; i < pixels.size(); ++i)
         pixels[i] = std::isfinite(depth[i]) ? gray(1 - 0.8 * (double{depth[i]} - low) / range) : nothing;
+    if (low > high) return {};
+    return std::pair(double{low}, double{high});
 }
 
 void paint_normals(const Image& image, std::span<std::uint32_t> pixels) {
@@ -65,10 +67,38 @@ void paint_overlaps(const Image& image, std::span<std::uint32_t> pixels) {
                                         : nothing;
 }
 
-void paint_segments(std::span<const float> counts, std::span<std::uint32_t> pixels) {
+std::pair<double, double> paint_segments(std::span<const float> counts, std::span<std::uint32_t> pixels) {
     const float most = std::max(1.0f, *std::max_element(counts.begin(), counts.end()));
     for (std::size_t i = 0; i < pixels.size(); ++i)
         pixels[i] = counts[i] > 0 ? of_hue(2.0 / 3 * (1 - counts[i] / most)) : nothing;
+    return {0, most};
+}
+
+/// Paints what is seen of selected regions red, with its outline, and hatches green what planes have cut.
+void paint_marks(const Image& image, const std::vector<bool>& selected, std::span<std::uint32_t> pixels) {
+    const auto regions = image.ids("region"), solids = image.ids("solid");
+    const int width = image.width, height = image.height;
+    const auto is_selected = [&](int x, int y) {
+        const std::uint32_t region = regions[static_cast<std::size_t>(y) * width + x];
+        return region > 0 && region <= selected.size() && selected[region - 1];
+    };
+    const auto is_border = [&](int x, int y) {
+        for (const auto& [dx, dy] : {std::pair(1, 0), std::pair(-1, 0), std::pair(0, 1), std::pair(0, -1)})
+            for (int step = 1; step <= 2; ++step) {
+                const int column = x + step * dx, row = y + step * dy;
+                const bool is_inside = column >= 0 && column < width && row >= 0 && row < height;
+                if (is_inside && !is_selected(column, row)) return true;
+            }
+        return false;
+    };
+    constexpr std::uint32_t outline = 255, tint = 40, apart = 9;
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) {
+            const std::size_t i = static_cast<std::size_t>(y) * width + x;
+            const std::uint32_t red = !is_selected(x, y) ? 0 : is_border(x, y) ? outline : tint;
+            const bool is_hatched = regions[i] > 0 && solids[i] == 0 && static_cast<std::uint32_t>(x + y) % apart == 0;
+            pixels[i] = opaque | red | (is_hatched ? 0xff00u : 0u);
+        }
 }
 
 /// Draws a light line between pixels of different ghosts.
@@ -96,6 +126,7 @@ std::uint32_t channels_for(Show show, bool has_ghosts) {
         case Show::normal:
             return channel::normal;
         case Show::region:
+        case Show::marks:
             return channel::ids;
         case Show::overlap:
         case Show::segments:
@@ -104,16 +135,16 @@ std::uint32_t channels_for(Show show, bool has_ghosts) {
     return channel::display;
 }
 
-void paint(const Image& image, Show show, std::span<std::uint32_t> pixels) {
-    if (pixels.empty()) return;
+std::optional<std::pair<double, double>> paint(const Image& image, Show show, const std::vector<bool>& selected,
+                                               std::span<std::uint32_t> pixels) {
+    if (pixels.empty()) return {};
     switch (show) {
         case Show::color:
             std::ranges::copy(image.ids("RGBA8"), pixels.begin());
             if (image.has_channel("ghost")) outline_ghosts(image, pixels);
             break;
         case Show::depth:
-            paint_depth(image.channel("Z"), pixels);
-            break;
+            return paint_depth(image.channel("Z"), pixels);
         case Show::normal:
             paint_normals(image, pixels);
             break;
@@ -124,9 +155,12 @@ void paint(const Image& image, Show show, std::span<std::uint32_t> pixels) {
             paint_overlaps(image, pixels);
             break;
         case Show::segments:
-            paint_segments(image.channel("depth"), pixels);
+            return paint_segments(image.channel("depth"), pixels);
+        case Show::marks:
+            paint_marks(image, selected, pixels);
             break;
     }
+    return {};
 }
 
 }  // namespace csgrt

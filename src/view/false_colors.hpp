@@ -2,7 +2,10 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
+#include <utility>
+#include <vector>
 
 #include <csgrt/image.hpp>
 
@@ -14,6 +17,8 @@ namespace csgrt {
 std::uint32_t channels_for(Show show, bool has_ghosts);
 
 /// Paints pixels for a display: R G B A, one byte each, R in the lowest byte. `pixels` has one value for each pixel.
-void paint(const Image& image, Show show, std::span<std::uint32_t> pixels);
+/// `selected` has one for each region, for marks. Returns the range of the values, where colours mean some.
+std::optional<std::pair<double, double>> paint(const Image& image, Show show, const std::vector<bool>& selected,
+                                               std::span<std::uint32_t> pixels);
 
 }  // namespace csgrt

@@ -13,12 +13,13 @@ namespace csgrt {
 
 namespace {
 
-constexpr std::array<std::pair<std::string_view, Show>, 6> shows{{{"color", Show::color},
+constexpr std::array<std::pair<std::string_view, Show>, 7> shows{{{"color", Show::color},
                                                                   {"depth", Show::depth},
                                                                   {"normal", Show::normal},
                                                                   {"region", Show::region},
                                                                   {"overlap", Show::overlap},
-                                                                  {"segments", Show::segments}}};
+                                                                  {"segments", Show::segments},
+                                                                  {"marks", Show::marks}}};
 constexpr int most_nested = 16;
 
 template <class Names>

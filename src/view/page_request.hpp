@@ -17,7 +17,7 @@ namespace csgrt {
 using Json = nlohmann::json;
 
 /// The quantity that a frame's pixels show.
-enum class Show { color, depth, normal, region, overlap, segments };
+enum class Show { color, depth, normal, region, overlap, segments, marks };
 
 /// A page's view, as the page's address and its saved files hold it.
 struct PageView {

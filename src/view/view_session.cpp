@@ -409,21 +409,28 @@ void ViewSession::frame(const Request& request, const Client& client) {
         Json head = {{"number", number},           {"width", page.view.width},
                      {"height", page.view.height}, {"samples", page.view.samples},
                      {"generation", generation},   {"encoding", deflates ? "deflate" : "raw"}};
+        std::vector<bool> selected(model.regions().size());
+        if (request.has("selected"))
+            for (const auto& [first, last] : request.ranges("selected", selected.size()))
+                std::fill(selected.begin() + static_cast<std::ptrdiff_t>(first),
+                          selected.begin() + static_cast<std::ptrdiff_t>(last), true);
         std::vector<std::uint32_t>& pixels = memory.pixels;
         pixels.resize(count);
+        std::optional<std::pair<double, double>> range;
         double ms = 0;
         if (is_slow) {
             if (!draw_in_passes(model, page.view, is_newest, memory.whole, ms)) return send(cancelled);
-            paint(memory.whole, page.show, pixels);
+            range = paint(memory.whole, page.show, selected, pixels);
         } else if (!draw_with(quick_, model, is_newest, [&](Renderer& renderer) {
                        renderer.render(page.view, quick_.framebuffer);
                        ms = renderer.statistics().ms.frame;
                        note_picture(rays, ms);
-                       paint(quick_.framebuffer.image(), page.show, pixels);
+                       range = paint(quick_.framebuffer.image(), page.show, selected, pixels);
                    })) {
             return send(cancelled);
         }
         head["draw_ms"] = ms;
+        if (range) head["range"] = {range->first, range->second};
         head["device"] = status().at("device");
         if (deflates) return send(head, deflated(pixels));
         send(head, {reinterpret_cast<const char*>(pixels.data()), 4 * pixels.size()});

@@ -815,6 +815,46 @@ class Browser(unittest.TestCase):
         self.assertEqual({count for divisor, count in lines if divisor > 1}, {0})
         self.assertGreater(lines[-1][1], 100)
 
+    def test_marks_of_parts_and_cuts(self):
+        page = self.page
+        page.click(*self.middle)
+        page.wait(lambda: page.js("return marked.seen") > 0)
+        side = 100 * page.js("return size.height / view.camera.view_size")
+        self.assertAlmostEqual(page.js("return marked.seen") / side ** 2, 1, delta=0.02)
+        box = "return marks.box.getAttribute('d')"
+        alphas = ("return [...by('mask').getContext('2d').getImageData(0, 0, size.width, size.height).data]"
+                  ".filter((v, i) => i % 4 === 3).filter(v => v === arguments[0]).length")
+        self.assertEqual(page.js(box), "")
+        self.assertAlmostEqual(page.js(alphas, 255) / (8 * side), 1, delta=0.05)  # an outline of two pixels
+        page.js("select('/all/pair/twin.r')")
+        page.wait(lambda: page.js(box) != "")  # nothing of it is seen
+        page.press("toggle-cut").press("add-plane").set("cut-0-distance", "70")
+        page.wait(lambda: page.js(alphas, 150) > side ** 2 / 12)
+        page.press("toggle-display").press("hatch")
+        self.assertTrue(page.js("return by('mask').hidden || !(" + alphas.removeprefix("return ").replace(
+            "arguments[0]", "150") + ")"))
+
+    def test_axes_scale_and_legends(self):
+        page = self.page
+        for name, azimuth, elevation in (("+x", 0, 0), ("-x", 180, 0), ("+y", 90, 0), ("-y", 270, 0), ("+z", 270, 90),
+                                         ("-z", 270, -90), ("-iso", 35, 25), ("+x", 0, 0)):
+            page.js("by(arguments[0]).querySelector('circle').dispatchEvent(new MouseEvent('click', {bubbles: true}))",
+                    "look" + name)
+            camera = page.idle().view()["camera"]
+            self.assertEqual((camera["azimuth"], camera["elevation"]), (azimuth, elevation), name)
+        text, length = page.js("return [bar.text.textContent, bar.path.getBBox().width]")
+        scale = page.js("return size.css_height / view.camera.view_size")
+        self.assertAlmostEqual(float(text.removesuffix(" mm")) * scale, length, delta=0.01)
+        page.set("show", "depth", "change")
+        low, high = (float(page.text("legend-" + end).removesuffix(" mm")) for end in ("low", "high"))
+        self.assertAlmostEqual(high - low, 40, delta=0.2)
+        page.set("show", "segments", "change")
+        self.assertEqual(page.text("legend-high"), "3")
+        page.set("show", "color", "change")
+        self.assertFalse(page.id("legend").is_displayed())
+        page.press("toggle-display").press("guides")
+        self.assertEqual(page.js("return [bar.text.textContent, triad.style.display]"), ["", "none"])
+
     def test_the_ground_follows_the_system_or_has_its_own_colours(self):
         page, corner = self.page, "return [...paint.getImageData(2, 2, 1, 1).data]"
         self.assertEqual(page.js(corner), [0, 0, 0, 0])
@@ -824,16 +864,17 @@ class Browser(unittest.TestCase):
             for scheme in ("dark", "light"):
                 page.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {
                     "features": [{"name": "prefers-color-scheme", "value": scheme}]})
-                grounds.append([page.js(style), page.id("ground-top").get_attribute("value")])
-            self.assertNotEqual(grounds[0][0], grounds[1][0])
-            self.assertNotEqual(grounds[0][1], grounds[1][1])
+                color = "#39434e" if scheme == "dark" else "#fbfcfd"
+                page.wait(lambda: page.id("ground-top").get_attribute("value") == color)
+                grounds.append(page.js(style))
+            self.assertNotEqual(*grounds)
             page.set("ground-top", "#ff8000")
             self.assertIn("rgb(255, 128, 0)", page.js(style))
             time.sleep(0.4)
             other = Page(self.driver, page.driver.current_url)
             self.assertIn("rgb(255, 128, 0)", other.js(style))
             other.press("ground-own")
-            self.assertEqual(other.js(style), grounds[1][0])
+            self.assertEqual(other.js(style), grounds[1])
         finally:
             page.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": []})
 

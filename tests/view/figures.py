@@ -31,6 +31,7 @@ def take_screenshots(csgrt, root, work, folder):
 
     def ask(page):  # along a row of shapes; then it is seen from the side
         page.press("view-right").press("fit").click(*page.screen([-50, -3250, 150]))
+        page.js("document.querySelector('#measured button').click()")
         page.js("turn(325, 28, csgrt.view.camera.center); changed()")
         page.idle().press("fit")
 

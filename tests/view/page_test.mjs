@@ -118,7 +118,7 @@ test("a link gives what it was made of; what is wrong with others is said", () =
   const usual = {camera: {azimuth: 1, elevation: 2, perspective: 0, center: [0, 0, 0], view_size: 9}, clip: [],
                  looks: [], show: "color", edges: true, light: "studio"};
   const view = {...usual, clip: [{normal: [1, 0, 0], distance: 2}], looks: [{path: "/a'%#", state: "ghost"}],
-                edges: false, light: "model", ground: [[0, 0, 0], [1, 0.5, 1]]};
+                edges: false, light: "model", ground: [[0, 0, 0], [1, 0.5, 1]], hatch: false, guides: true};
   const page = {slice: {plane: 0, place: [1, 2], mm: 0.5}, selected: ["/a"],
                 answer: {camera: usual.camera, width: 9, height: 8, x: 3, y: 4, from: [1, 2, 3], to: [4, 5, 6]},
                 measurements: [{what: "a", value: 1, unit: "mm", part: "/a", ends: [[1, 2, 3], [4, 5, 6]]}]};

@@ -10,6 +10,7 @@ import {pointers} from "./mouse.mjs";
 import {ask, attempt} from "./net.mjs";
 import {clamp, css, dot, hex, ink_on, minus, number, numbers} from "./numbers.mjs";
 import {draw_overlay} from "./overlay.mjs";
+import {ask_marks} from "./marks.mjs";
 import {draw_measurements} from "./measure.mjs";
 import {open_panel} from "./panels.mjs";
 import {described} from "./shapes.mjs";
@@ -56,7 +57,7 @@ export function select(...paths) {
   for (const part of by("beam").querySelectorAll("button"))
     part.ariaPressed = String(selection.includes(part.dataset.path));
   keep_address();
-  draw_overlay();
+  ask_marks();
 }
 /// Selects a part besides the others, or no longer.
 export const toggle_selected = path =>

@@ -5,10 +5,11 @@ import {ask_hover} from "./ask.mjs";
 import {size} from "./camera.mjs";
 import {draw_display} from "./display.mjs";
 import {by, resize, say} from "./dom.mjs";
+import {draw_legend} from "./legend.mjs";
 import {load_model} from "./main.mjs";
+import {ask_marks} from "./marks.mjs";
 import {wheel} from "./mouse.mjs";
 import {decompressed, page_id, post, report} from "./net.mjs";
-import {draw_overlay} from "./overlay.mjs";
 import {adapt, encoding_of, note_rate} from "./rates.mjs";
 import {ended, model, view} from "./state.mjs";
 
@@ -84,7 +85,7 @@ async function draw(job) {
 }
 /// The body has the length of a JSON text, the text, and the pixels. Its first part comes when the picture is drawn:
 /// from then on the link is timed.
-async function read_frame(response) {
+export async function read_frame(response) {
   const reader = response.body.getReader(), parts = [];
   let total = 0, begun = 0;
   for (let part = await reader.read(); !part.done; part = await reader.read()) {
@@ -100,7 +101,7 @@ async function read_frame(response) {
   return {head: JSON.parse(new TextDecoder().decode(bytes.subarray(4, start))), pixels: bytes.subarray(start)};
 }
 /// Pixels from zlib's format, four bytes at a time. Each byte has the byte four before it subtracted.
-async function inflated(bytes) {
+export async function inflated(bytes) {
   const words = new Uint32Array(await decompressed(new Blob([bytes]).stream()).arrayBuffer());
   for (let i = 1, a = words[0]; i < words.length; i++) {
     const b = words[i];
@@ -133,7 +134,8 @@ function show_frame(job, head, {buffer, byteOffset, length}) {
   by("time").textContent = `${head.draw_ms.toFixed(1)} ms drawn, ${wall.toFixed(0)} ms in all`;
   by("samples").textContent = `${samples} ${samples === 1 ? "sample" : "samples"}`;
   by("pixels").textContent = `${head.width} x ${head.height}`;
-  draw_overlay();
+  ask_marks();
+  draw_legend(head.range);
   const is_rest = divisor === 1 && !loop.moving && samples === 1, last_input = loop.last_input;
   when_painted(() => {
     const seen = performance.now();

@@ -19,16 +19,18 @@ export function checked(given, usual, choices) {
   const is_look = look => look && typeof look.path === "string" && (!look.color || is_vector(look.color)) &&
     (!look.state || STATES.includes(look.state));
   expect(given && typeof given === "object" && !Array.isArray(given), "a view is an object");
-  const {clip, looks, show, edges, light, ground = null} = {...structuredClone(usual), ...given};
+  const {clip, looks, show, edges, light, ground = null, hatch = true, guides = true} =
+    {...structuredClone(usual), ...given};
   const camera = checked_camera({...usual.camera, ...given.camera});
   expect(Array.isArray(clip) && clip.length <= 3 && clip.every(is_plane), "clip is a list of up to three planes");
   expect(Array.isArray(looks) && looks.every(is_look), "looks is a list of paths with states or colours");
   expect(choices.show.includes(show), "show is unknown");
   expect(choices.light.includes(light), "light is unknown");
-  expect(typeof edges === "boolean", "edges is true or false");
+  expect([edges, hatch, guides].every(flag => typeof flag === "boolean"), "edges, hatch and guides are true or false");
   expect(ground === null || Array.isArray(ground) && ground.length === 2 && ground.every(is_vector),
          "ground is a list of two colours");
-  return {camera, clip: clip.map(({normal, distance}) => ({normal, distance})), looks, show, edges, light, ground};
+  return {camera, clip: clip.map(({normal, distance}) => ({normal, distance})), looks, show, edges, light, ground,
+          hatch, guides};
 }
 function checked_camera({azimuth, elevation, perspective, center, view_size}) {
   expect([azimuth, elevation, perspective, view_size].every(Number.isFinite) && is_vector(center) && view_size > 0 &&

@@ -4,7 +4,7 @@ import {checked_view, read_address} from "./address.mjs";
 import {answer, ask_selected, copy, draw_answer} from "./ask.mjs";
 import {size} from "./camera.mjs";
 import {add_plane, build_planes} from "./cut.mjs";
-import {set_ground, set_light} from "./display.mjs";
+import {set_flag, set_ground, set_light} from "./display.mjs";
 import {by, el, named, notes, rove_by_key, say} from "./dom.mjs";
 import {MOST_SIDE, canvas, changed, loop, pump, set_camera} from "./frames.mjs";
 import {KEYS, MOUSE, run_of, with_selected} from "./keys.mjs";
@@ -120,6 +120,7 @@ function connect() {
     changed(event);
   }, "change");
   on("light", set_light, "change");
+  for (const id of ["hatch", "guides"]) on(id, set_flag, "change");
   for (const id of ["ground-top", "ground-bottom"]) on(id, () => set_ground(true), "input");
   on("search", list_rows, "input");
   on("tree", draw_tree, "scroll");

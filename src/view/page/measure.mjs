@@ -35,6 +35,7 @@ const row = (one, ...buttons) => el("div", {className: "line measured"},
   ...buttons);
 /// Lists what the answer measures, and what is kept.
 export function draw_measurements() {
+  by("measured-title").hidden = !answer?.point;
   by("measured").replaceChildren(...measured().map(one => row(one, el("button", {textContent: "Keep",
     ariaLabel: `Keep: ${one.what}`, onclick: event => change_kept([...kept, one], event)}))));
   by("kept").hidden = !kept.length;

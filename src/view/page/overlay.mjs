@@ -5,6 +5,8 @@ import {set_plane} from "./cut.mjs";
 import {by, svg} from "./dom.mjs";
 import {loop, rest} from "./frames.mjs";
 import {cross_hair} from "./keys.mjs";
+import {draw_guides, guides} from "./legend.mjs";
+import {marked} from "./marks.mjs";
 import {kept_marks} from "./measure.mjs";
 import {along, corners, css, minus, unit} from "./numbers.mjs";
 import {bounds, color_of, model, path_of, selection, view} from "./state.mjs";
@@ -26,7 +28,7 @@ const handles = [0, 1, 2].map(i => {
   });
   return handle;
 });
-overlay.append(...Object.values(marks), ...handles.map(handle => handle.group));
+overlay.append(...Object.values(marks), ...handles.map(handle => handle.group), guides);
 /// The path along lines of points of the model. A line that comes from behind the eye is left out.
 function screen_path(camera, lines) {
   return lines.map(points => points.map(p => on_screen(camera, p))).filter(points => points.every(Boolean))
@@ -45,9 +47,10 @@ function outline(plane) {
 export function draw_overlay() {
   const {camera} = loop.shown, at = cross_hair.place, [x, y] = at ?? [0, 0];
   if (!camera || !model) return;
+  draw_guides(camera);
   const cutting = by("cut").hidden ? [] : view.clip;
   marks.planes.setAttribute("d", screen_path(camera, cutting.flatMap(outline)));
-  marks.box.setAttribute("d", screen_path(camera, selected_boxes.flatMap(box_edges)));
+  marks.box.setAttribute("d", screen_path(camera, marked.seen ? [] : selected_boxes.flatMap(box_edges)));
   const apart = answer?.point && previous ? [[previous.point, answer.point]] : [];
   marks.measure.setAttribute("d", screen_path(camera, apart));
   marks.cross.setAttribute("d", at ? `M${x - 12} ${y}h9m6 0h9M${x} ${y - 12}v9m0 6v9` : "");

@@ -25,6 +25,7 @@ async function with_marks() {
   on.fillStyle = ground;
   on.fillRect(0, 0, made.width, made.height);
   on.drawImage(canvas, 0, 0);
+  if (!by("mask").hidden) on.drawImage(by("mask"), 0, 0);
   for (const handle of copy.querySelectorAll(".handle")) handle.remove();
   for (const name of ["--ink", "--accent", "--chosen", "--ground-bottom"]) copy.style.setProperty(name, value(name));
   for (const name of ["width", "height"]) copy.setAttribute(name, made[name]);
