@@ -9,7 +9,8 @@ import {view} from "./state.mjs";
 const TEXT = {"font-size": 12, "font-family": "sans-serif", "text-anchor": "middle", fill: "var(--ink)"};
 const COLORS = ["#d8434a", "#2f9e44", "#3b7ddd"], ARM = 34;
 export const guides = svg("g");
-const bar = {path: svg("path", {stroke: "var(--ink)", "stroke-width": 1.5}), text: svg("text", TEXT)};
+const bar = {path: svg("path", {stroke: "var(--ink)", "stroke-width": 1.5}),
+             text: svg("text", {...TEXT, "text-anchor": "start"})};
 const triad = svg("g", {id: "triad"});
 /// A view by a click: of the six along the axes, and iso.
 function viewpoint(name, color, angles) {
@@ -50,7 +51,7 @@ export function draw_guides(camera) {
   if (sorted.some((one, i) => triad.children[i + 1] !== one.group)) triad.append(...sorted.map(one => one.group));
   const scale = h / camera.view_size, mm = round_length(0.25 * w / scale), length = mm * scale;
   bar.path.setAttribute("d", view.guides ? `M14 ${h - 20}v6h${length}v-6` : "");
-  for (const [name, value] of [["x", 14 + length / 2], ["y", h - 20]]) bar.text.setAttribute(name, value);
+  for (const [name, value] of [["x", 18], ["y", h - 20]]) bar.text.setAttribute(name, value);
   bar.text.textContent = view.guides ? length_text(mm) + (camera.perspective ? " at the centre" : "") : "";
 }
 /// Says what the colours of the picture mean, which has values in a range.
