@@ -54,8 +54,12 @@ Json to_json(const Model& model, std::int64_t solid) {
     return {{"name", info.name}, {"type", info.type}};
 }
 
-/// How far a hit's region goes on along the inward normal; null if it is open.
+/// A region that is open toward the ray's start has no surface there.
+bool has_surface(const Pick& pick) { return std::isfinite(pick.t) && dot(pick.normal, pick.normal) > 0; }
+
+/// How far a hit's region goes on along the inward normal; null if it is open, or has no surface there.
 Json thickness_of(const Model& model, const Pick& pick) {
+    if (!has_surface(pick)) return nullptr;
     constexpr double far = std::numeric_limits<double>::infinity();
     const Ray inward{pick.point, -1.0 * pick.normal};
     Partitions rows;
@@ -454,8 +458,9 @@ Json ViewSession::pick(const Request& request) {
         if (const std::optional<Shape> shape = model.solid(static_cast<std::size_t>(pick.solid)))
             answer["solid"]["shape"] = Json::parse(json_text(*shape));
     if (pick.region >= 0)
-        answer.update(
-            {{"t", distance(pick.t)}, {"normal", to_json(pick.normal)}, {"thickness", thickness_of(model, pick)}});
+        answer.update({{"t", distance(pick.t)},
+                       {"normal", has_surface(pick) ? to_json(pick.normal) : Json()},
+                       {"thickness", thickness_of(model, pick)}});
     Json partitions = Json::array(), overlaps = Json::array();
     for (const Partition& part : pick.along.partitions)
         partitions.push_back({{"region", part.region},

@@ -184,6 +184,18 @@ TEST_CASE("view: a pick tells what Model::pick does, and the command that repeat
     const json after = page.ask("pick", request);
     CHECK(after["region"].is_null());
     CHECK(after["partitions"] == before["partitions"]);
+
+    Scene open;  // all below z = 0, seen from below
+    open.objects = {Object(Solid{"under", Half{{{0, 0, 1}, 0}}})};
+    const PageClient below(Model(open, {"under"}));
+    request = sized(below.ask("model")["view"]);
+    request["view"]["camera"] = {
+        {"azimuth", 0}, {"elevation", -40}, {"perspective", 60}, {"center", {0, 0, -900}}, {"view_size", 10}};
+    request.update({{"x", width / 2}, {"y", 1}});
+    const json inside = below.ask("pick", request);
+    CAPTURE(inside.dump());
+    CHECK(inside["region"] == 0);
+    CHECK((inside["normal"].is_null() && inside["thickness"].is_null()));
 }
 
 TEST_CASE("view: the command draws the page's picture", "[view][promise:page]") {
@@ -293,7 +305,7 @@ TEST_CASE("view: what is no colour is shown, too, and a ghost has an outline", "
     json view = page.ask("model")["view"];
     const std::string colors = page.frame(sized(view)).pixels;
     std::vector<std::string> seen = {colors};
-    for (const char* show : {"depth", "normal", "region", "overlap", "segments"}) {
+    for (const char* show : {"depth", "normal", "region", "overlap", "segments", "marks"}) {
         view["show"] = show;
         seen.push_back(page.frame(sized(view)).pixels);
         CHECK(seen.back().size() == colors.size());
