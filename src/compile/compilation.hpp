@@ -57,7 +57,7 @@ private:
     SceneChanges changes_;  ///< of the scene
     Validated validated_;
     FlatScene flat_;
-    std::optional<Measured> measured_;
+    std::optional<InstanceBounds> measured_;
     Clipped clipped_;
     std::vector<std::uint32_t> instances_;  ///< all that no change has removed, ascending
     std::vector<std::uint32_t> order_;      ///< the same, as solids are numbered

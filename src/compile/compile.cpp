@@ -47,7 +47,7 @@ Box common_box(const Scene& scene, const FlatScene& flat, const Space& space) {
 
 /// Leaves out solids beyond the limits of size and distance. Returns true if there are such solids: then the trees
 /// change. Throws Error (scene) if the scene is strict.
-bool leave_out_extremes(const Scene& scene, const FlatScene& flat, const Measured& measured, Names& names,
+bool leave_out_extremes(const Scene& scene, const FlatScene& flat, const InstanceBounds& measured, Names& names,
                         std::vector<Warning>& warnings) {
     const std::vector<ExtentFault> faults = extent_faults(scene, flat, measured);
     if (faults.empty()) return false;

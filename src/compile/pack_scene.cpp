@@ -39,8 +39,8 @@ void check_numbers(std::size_t count) {
     if (count > 0xffffffffu) throw Error(Status::scene, "the parameters of all solids together exceed 2^32 numbers");
 }
 
-ScenePacker::ScenePacker(const Scene& scene, const FlatScene& flat, const Measured& measured, const Clipped& clipped,
-                         const Space& space, const Box& common)
+ScenePacker::ScenePacker(const Scene& scene, const FlatScene& flat, const InstanceBounds& measured,
+                         const Clipped& clipped, const Space& space, const Box& common)
     : scene_(scene),
       flat_(flat),
       measured_(measured),

@@ -20,7 +20,7 @@ public:
     /// Packs all instances. All arguments outlive the packer. `space`: its sphere is known. `common`: the box that is
     /// used for unbounded solids. `clipped` tells which half-spaces are bounded, and by which box. Throws Error (scene)
     /// for a type that csgrt does not know, or when the tables exceed 32 bits.
-    ScenePacker(const Scene& scene, const FlatScene& flat, const Measured& measured, const Clipped& clipped,
+    ScenePacker(const Scene& scene, const FlatScene& flat, const InstanceBounds& measured, const Clipped& clipped,
                 const Space& space, const Box& common);
     ScenePacker(const ScenePacker&) = delete;
 
@@ -68,7 +68,7 @@ private:
 
     const Scene& scene_;
     const FlatScene& flat_;
-    const Measured& measured_;
+    const InstanceBounds& measured_;
     const Clipped& clipped_;
     const Box common_;
     Shapes large_;       ///< the tables of solids without a fixed size, with which all tables begin

@@ -27,7 +27,7 @@ struct Row {
         for (const Object& object : scene.objects)
             if (std::holds_alternative<Combination>(object)) regions.push_back(name_of(object));
         flat = flatten(scene, regions, false);
-        clipped = clip_by_half_spaces(scene, flat, Measured(scene, flat).boxes);
+        clipped = clip_by_half_spaces(scene, flat, InstanceBounds(scene, flat).boxes);
     }
 
     /// In postfix order: u, +, -, ^, !, with the arity if it is not 2.

@@ -37,7 +37,8 @@ std::string extent_fault(const Shape& shape, const Matrix& matrix, const Box& bo
 
 }  // namespace
 
-std::string extent_fault(const Scene& scene, const FlatScene& flat, const Measured& measured, std::size_t number) {
+std::string extent_fault(const Scene& scene, const FlatScene& flat, const InstanceBounds& measured,
+                         std::size_t number) {
     const Box& box = measured.boxes[number];
     const bool plain =
         largest(box.low) <= most && largest(box.high) <= most && box.high.x - box.low.x >= Limits::least_length;
@@ -45,7 +46,7 @@ std::string extent_fault(const Scene& scene, const FlatScene& flat, const Measur
     return plain ? std::string() : extent_fault(shape_of(scene, flat, instance), *instance.matrix, box);
 }
 
-std::vector<ExtentFault> extent_faults(const Scene& scene, const FlatScene& flat, const Measured& measured) {
+std::vector<ExtentFault> extent_faults(const Scene& scene, const FlatScene& flat, const InstanceBounds& measured) {
     std::vector<ExtentFault> faults;
     for (std::size_t i = 0; i < flat.instances.size(); ++i) {
         std::string fault = extent_fault(scene, flat, measured, i);

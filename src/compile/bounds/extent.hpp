@@ -17,9 +17,9 @@ struct ExtentFault {
 };
 
 /// The fault of an instance; empty: none.
-std::string extent_fault(const Scene& scene, const FlatScene& flat, const Measured& measured, std::size_t number);
+std::string extent_fault(const Scene& scene, const FlatScene& flat, const InstanceBounds& measured, std::size_t number);
 
 /// The solids that are larger, smaller or farther away than Limits allows.
-std::vector<ExtentFault> extent_faults(const Scene& scene, const FlatScene& flat, const Measured& measured);
+std::vector<ExtentFault> extent_faults(const Scene& scene, const FlatScene& flat, const InstanceBounds& measured);
 
 }  // namespace csgrt

@@ -9,7 +9,7 @@ namespace {
 constexpr std::size_t chunk_size = 1024;
 }
 
-Measured::Measured(const Scene& scene, const FlatScene& flat)
+InstanceBounds::InstanceBounds(const Scene& scene, const FlatScene& flat)
     : chunks_((flat.instances.size() + chunk_size - 1) / chunk_size) {
     const std::size_t count = flat.instances.size();
     resize_cleared(boxes, count);
@@ -26,7 +26,7 @@ Measured::Measured(const Scene& scene, const FlatScene& flat)
 }
 
 /// Sets the boxes of an instance. Returns its faces, if it is an arb.
-std::vector<Plane> Measured::set_boxes(const Scene& scene, const FlatScene& flat, std::size_t number) {
+std::vector<Plane> InstanceBounds::set_boxes(const Scene& scene, const FlatScene& flat, std::size_t number) {
     const Instance& instance = flat.instances[number];
     const Shape& shape = shape_of(scene, flat, instance);
     ArbFaces faces{};
@@ -42,7 +42,7 @@ std::vector<Plane> Measured::set_boxes(const Scene& scene, const FlatScene& flat
     return std::move(faces.planes);
 }
 
-void Measured::measure(const Scene& scene, const FlatScene& flat, std::uint32_t instance) {
+void InstanceBounds::measure(const Scene& scene, const FlatScene& flat, std::uint32_t instance) {
     const std::size_t had = faces(instance).size();
     const std::vector<Plane> now = set_boxes(scene, flat, instance);
     std::vector<Plane>& planes = chunks_[instance / chunk_size];
@@ -52,7 +52,7 @@ void Measured::measure(const Scene& scene, const FlatScene& flat, std::uint32_t 
         first_face_[i] += static_cast<std::uint32_t>(now.size() - had);
 }
 
-std::span<const Plane> Measured::faces(std::size_t instance) const {
+std::span<const Plane> InstanceBounds::faces(std::size_t instance) const {
     const std::span<const Plane> chunk(chunks_[instance / chunk_size]);
     const std::size_t next = instance + 1, first = first_face_[instance];
     const bool is_last = next == first_face_.size() || next % chunk_size == 0;

@@ -12,10 +12,10 @@
 namespace csgrt {
 
 /// The boxes of all instances, and the faces of the arbs among them. Later steps only read them.
-class Measured {
+class InstanceBounds {
 public:
     /// Measures all instances, on several threads.
-    Measured(const Scene& scene, const FlatScene& flat);
+    InstanceBounds(const Scene& scene, const FlatScene& flat);
     /// Measures an instance again, which has another matrix.
     void measure(const Scene& scene, const FlatScene& flat, std::uint32_t instance);
 
