@@ -27,16 +27,12 @@ csgrt::Vec3 sum(const csgrt::Vec3& a, double s, const csgrt::Vec3& b) {
     return {a.x + s * b.x, a.y + s * b.y, a.z + s * b.z};
 }
 
-/// What a gizmo's handle gives: a turn by `degrees` about the axis parallel to z through a point, and a way up.
-csgrt::Matrix turned(const csgrt::Vec3& about, double degrees, double up) {
-    const double c = std::cos(degrees * std::numbers::pi / 180), s = std::sin(degrees * std::numbers::pi / 180);
+/// What a gizmo's handle gives: a way in the world.
+csgrt::Matrix moved(const csgrt::Vec3& by) {
     csgrt::Matrix matrix = csgrt::identity;
-    matrix[0] = matrix[5] = c;
-    matrix[1] = -s;
-    matrix[4] = s;
-    matrix[3] = about.x - c * about.x + s * about.y;
-    matrix[7] = about.y - s * about.x - c * about.y;
-    matrix[11] = up;
+    matrix[3] = by.x;
+    matrix[7] = by.y;
+    matrix[11] = by.z;
     return matrix;
 }
 
@@ -158,7 +154,8 @@ void act(Viewer& v, Table& table, int right) {
     ACTION("cut by a plane", v.view.clip = {{{1, 0, 0}, v.center().x}}; v.draw())
     v.view.clip.clear();
 
-    const csgrt::Matrix gizmo = turned(seen.point, 5, 0.01 * v.height());
+    // Towards the middle: a part that leaves the model's extent costs a whole compilation.
+    const csgrt::Matrix gizmo = moved(sum(sum({}, 0.01, v.center()), -0.01, seen.point));
     const csgrt::Shape ball = csgrt::Ell{seen.point, {10, 0, 0}, {0, 10, 0}, {0, 0, 10}};
     ACTION("move a part by a gizmo's matrix", v.show(v.edit().move(part, gizmo)))
     ACTION("drag it on", v.show(v.edit().move(part, gizmo)))

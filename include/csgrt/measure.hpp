@@ -28,8 +28,10 @@ namespace csgrt {
 /// A row of a table of densities: regions of one material, or at one path, have the density. If two rows concern one
 /// region, the later one counts.
 struct Density {
-    int material_id = 0;    ///< BRL-CAD's number of the material, if there is no path
-    std::string path = {};  ///< a RegionInfo::path, or its beginning up to a '/' for all regions below; "/": all
+    int material_id = 0;  ///< BRL-CAD's number of the material, if there is no path
+    /// A RegionInfo::path, or its beginning up to a '/' for all regions below; "/": all. Measurer throws Error (usage)
+    /// if it fits no region.
+    std::string path = {};
     double density = 0;     ///< g/cm^3
     std::string name = {};  ///< of the material
 };

@@ -350,7 +350,8 @@ class Measurement:
     """What Scene.measure() answers. measurement[path] is a part; measurement["all"] is all together.
 
     parts: all together, assemblies, materials, regions. has_densities: whether there are masses. reached: whether each
-    region has reached the error. rays: how many were traced. seconds: what it took.
+    region has reached the error, or with rays=N whether all rays were traced. rays: how many were traced. seconds: what
+    it took.
     """
 
     def __init__(self, rows: Iterable[Any], has_densities: bool, reached: bool, rays: int, seconds: float):

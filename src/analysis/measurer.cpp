@@ -74,13 +74,6 @@ struct Region {
 
 constexpr double kg_per_mm3 = 1e-6;  ///< of 1 g/cm³
 
-/// Whether a row of a table is about a region.
-bool concerns(const Density& row, const RegionInfo& region) {
-    if (row.path.empty()) return row.material_id == region.material_id;
-    if (row.path == "/" || row.path == region.path) return true;
-    return region.path.starts_with(row.path) && (row.path.ends_with('/') || region.path[row.path.size()] == '/');
-}
-
 void check(const MeasureRequest& request) {
     const auto refuse = [](const std::string& text) { throw Error(Status::usage, text); };
     if (!(request.rel_error > 0)) refuse("the relative error of a measure must be greater than 0");
@@ -192,13 +185,23 @@ struct Measurer::Impl {
     /// Finds the densities of regions. Of a region that is not all material, BRL-CAD's attribute los tells how much is.
     void weigh() {
         const std::vector<Density>& densities = request.densities;
+        std::vector<const Density*> found(regions.size());  // the last row about each region
+        for (const Density& row : densities) {
+            if (row.path.empty()) {
+                for (std::size_t r = 0; r < regions.size(); ++r)
+                    if (row.material_id == model.regions()[r].material_id) found[r] = &row;
+                continue;
+            }
+            const std::vector<std::uint32_t> concerned = model.regions(row.path);
+            if (concerned.empty())
+                throw Error(Status::usage,
+                            "a density has the path '" + row.path + "', which no region has or lies below");
+            for (const std::uint32_t r : concerned) found[r] = &row;
+        }
         for (std::size_t r = 0; r < regions.size(); ++r) {
-            const RegionInfo& info = model.regions()[r];
-            const Density* found = nullptr;
-            for (const Density& row : densities)
-                if (concerns(row, info)) found = &row;
-            regions[r].has_density = found && info.los > 0;
-            const double weight = regions[r].has_density ? found->density * kg_per_mm3 * info.los / 100 : 0;
+            const int los = model.regions()[r].los;
+            regions[r].has_density = found[r] && los > 0;
+            const double weight = regions[r].has_density ? found[r]->density * kg_per_mm3 * los / 100 : 0;
             regions[r].weight = densities.empty() ? 1 : weight;
         }
     }

@@ -151,7 +151,7 @@ TEST_CASE("densities give masses, and the later row counts", "[promise:measure]"
 
     const Measurement given = measured(
         scene,
-        {.rel_error = 1e-3, .densities = {{.material_id = 2, .density = 1}, {.path = "/all/pair", .density = 2}}});
+        {.rel_error = 1e-3, .densities = {{.material_id = 2, .density = 1}, {.path = "all/pair/", .density = 2}}});
     check_near(part(given, "/all/pair/first").mass, 2e-3);
     check_near(part(given, "/all/pair").mass, 3e-3);
     CHECK(part(given, "all").weightless == 1);
@@ -260,6 +260,7 @@ TEST_CASE("what cannot be measured is refused", "[promise:measure]") {
                                           {.abs_error = -1},
                                           {.time = -1},
                                           {.densities = {{.density = -1}}},
+                                          {.densities = {{.path = "/nothing", .density = 1}}},
                                           {.wall_limit = -1}})
         CHECK(thrown_by([&] { measured(blocks(), request); }).status == Status::usage);
     const Measurement empty = measured(test::scene({block("a", {0, 0, 0}, {1, 1, 1}), block("b", {3, 0, 0}, {4, 1, 1}),

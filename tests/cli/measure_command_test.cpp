@@ -106,10 +106,11 @@ TEST_CASE("a table of densities of one's own counts in place of the database's",
     NEEDS_COMMAND();
     const Folder folder;
     const std::string scene = folder.write("blocks.asc", blocks);
-    const std::string own = folder.write("own", "# mine\n/all.g 1\n2 2.5 lead\n");
+    const std::string own = folder.write("own", "# mine\n/all.g 1\n2 2.5 lead\n/of_another_model 3\n");
     const Result result = run({"measure", scene, "--densities", own, "--json", "-"});
     CAPTURE(result.err);
     REQUIRE(result.status == 0);
+    CHECK(contains(result.err, "/of_another_model: no region has this path"));
     const json all = json::parse(result.out);
     CHECK(is_near(part(all, "/all.g/a.r")["mass"], 1e-3));
     CHECK(is_near(part(all, "/all.g/b.r")["mass"], 1.25e-3));

@@ -24,6 +24,17 @@ std::size_t table_width() {
     return std::clamp<std::size_t>(is_known ? size.ws_col : 100, 80, 120);
 }
 
+/// Takes out the rows of a table whose paths are of no region. A table may be that of a larger model.
+std::vector<Warning> drop_unused(std::vector<Density>& densities, const Model& model) {
+    std::vector<Warning> warnings;
+    std::erase_if(densities, [&](const Density& row) {
+        if (row.path.empty() || !model.regions(row.path).empty()) return false;
+        warnings.push_back({row.path, {}, "no region has this path or lies below it, so its density has no effect"});
+        return true;
+    });
+    return warnings;
+}
+
 }  // namespace
 
 Status run(const MeasureArguments& arguments) {
@@ -51,6 +62,7 @@ Status run(const MeasureArguments& arguments) {
         Settings settings = with_progress(arguments.settings, progress);
         Model model(std::move(scene), arguments.objects, settings);
         report(model.warnings(), false);
+        report(drop_unused(request.densities, model), false);
         check_interrupt();
         settings.progress = [](double) {  // the note tells how far it is
             catch_fatal_ends_again();

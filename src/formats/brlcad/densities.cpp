@@ -49,7 +49,7 @@ Density read_row(std::string_view key, std::string_view value, std::string_view 
     } else {
         const std::optional<double> id = finite_decimal(key);
         if (!id || *id != std::floor(*id) || std::abs(*id) > std::numeric_limits<int>::max())
-            throw Fault{at, quoted(key) + " is neither the number of a material nor a path", {}};
+            throw Fault{at, quoted(key) + " is neither the number of a material nor a path, which begins with '/'", {}};
         row.material_id = static_cast<int>(*id);
     }
     const std::optional<double> density = finite_decimal(value);
