@@ -129,6 +129,15 @@ class Subtree:
         self._scene._set_finish(self.path, _parse(scene_text({"finish": part})))
 
     @property
+    def bounds(self) -> NDArray[np.float64]:
+        """(2, 3) float64: the low and the high corner of the box around the boxes of all regions at or below the path,
+        mm. Raises KeyError if there are none."""
+        boxes = np.array([region.bounds for region in self._scene.regions.below(self.path)])
+        if not len(boxes):
+            raise KeyError(f"no region lies at or below {self.path!r}")
+        return np.array([boxes[:, 0].min(0), boxes[:, 1].max(0)])
+
+    @property
     def matrix(self) -> NDArray[np.float64]:
         """The (4, 4) matrix of the path's last leg, in its parent; the place of a top object. Set: here alone."""
         return self._scene._matrix_of(self.path)

@@ -192,11 +192,18 @@ class Regions(Sequence[Region]):
         if isinstance(key, str):
             path = "/" + key.removeprefix("/")
             if path not in self._by_path:
+                if below := self.below(path):
+                    raise KeyError(f"{key!r} is not a region: {len(below)} regions lie below it, as {below[0].path!r}")
                 raise KeyError(f"no region has the path {key!r}" + did_you_mean(path, self._by_path))
             return self._by_path[path]
         if not isinstance(key, slice) and index(key) < 0:
             raise IndexError(f"no region has the id {key}; -1 is a miss")
         return self._rows[key]
+
+    def below(self, path: str) -> list[Region]:
+        """The regions at a path or below it; "/": all."""
+        start = "/" + path.strip("/")
+        return [r for r in self._rows if start == "/" or r.path == start or r.path.startswith(start + "/")]
 
     def __repr__(self) -> str:
         shown = self._rows if len(self) <= 40 else self._rows[:20] + self._rows[-20:]

@@ -364,5 +364,17 @@ def test_measure_weighs_parts():
         scene.measure(rel_error=0)
 
 
+def test_a_path_has_the_box_of_the_regions_below_it():
+    pair = csgrt.box((1, 1, 1)).color((1, 0, 0)) | csgrt.sphere(1).translate(5, 0, 0).color((0, 1, 0))
+    scene = csgrt.Scene({"pair": pair, "other": csgrt.box((2, 3, 4))})
+    assert (scene["/"].bounds == scene.bounds).all()
+    assert (scene["pair/"].bounds == [[0, -1, -1], [6, 1, 1]]).all()
+    assert (scene["/other"].bounds == [[0, 0, 0], [2, 3, 4]]).all()
+    with pytest.raises(KeyError, match="2 regions lie below it, as '/pair/"):
+        scene["/pair"].state
+    with pytest.raises(KeyError, match="no region lies at or below '/nothing'"):
+        scene["/nothing"].bounds
+
+
 def test_devices_are_listed():
     assert any(device.platform == "csgrt" for device in csgrt.devices())
