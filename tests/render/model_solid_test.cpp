@@ -46,9 +46,11 @@ std::vector<double> boundaries(const Model& model, const std::vector<Ray>& rays)
     return all;
 }
 
-/// Whether the parameters of the model's first solid are those of a solid that rays meet at the same places.
+/// Whether the parameters of the model's only solid are those of a solid that rays meet at the same places. A pipe is
+/// several solids.
 bool has_parameters(const Scene& scene) {
     const Model model(scene);
+    if (model.solids().size() > 1) return false;
     const std::optional<Shape> shape = model.solid(0);
     if (!shape) return false;
     const std::vector<Ray> rays = test::random_rays(model.bounds(), 500);
