@@ -1,11 +1,11 @@
 // csgrt view: serves a page that shows a scene, until it is interrupted.
-#ifdef __GLIBC__
-#include <malloc.h>
-#endif
 #include <poll.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
+#ifdef __GLIBC__  // which the headers above tell
+#include <malloc.h>
+#endif
 
 #include <cstdio>
 #include <filesystem>
