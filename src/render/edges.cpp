@@ -101,10 +101,10 @@ void mark(Row& a, Row& b, std::size_t shift, const std::vector<float>& a_side, c
         const float off_a = std::abs(deeper * along_a[i] + sign * bm[i] * side_a[i]);
         const float off_b = std::abs(deeper * along_b[i] + sign * am[i] * side_b[i]);
         const float allowed = slack * std::max(am[i], bm[i]) + rounding * std::max(at[i], bt[i]);
-        const std::int32_t is_seen = (in_a[i] | in_b[i]) != 0, differs = in_a[i] != in_b[i],
-                           bends = ax[i] * bx[i] + ay[i] * by[i] +
-                                   az[i] * bz[i]<least_cosine, jumps = std::min(off_a, off_b)> allowed,
-                           is_first = at[i] <= bt[i];
+        const float cosine = ax[i] * bx[i] + ay[i] * by[i] + az[i] * bz[i], off = std::min(off_a, off_b);
+        const std::int32_t is_seen = (in_a[i] | in_b[i]) != 0, differs = in_a[i] != in_b[i];
+        const std::int32_t bends = cosine < least_cosine;
+        const std::int32_t jumps = allowed < off, is_first = at[i] <= bt[i];
         const std::int32_t is_edge = differs | (is_seen & (bends | jumps));
         marks_a[i] |= is_edge & is_first;
         marks_b[i] |= is_edge & ~is_first;
