@@ -42,7 +42,7 @@ struct Density {
 /// and appended to `warnings`, or, if this is null, throw Error (scene). Throws Error (file). Any thread.
 CSGRT_API std::vector<Density> load_densities(const std::string& path, std::vector<Warning>* warnings = nullptr);
 
-/// What a measure shall reach, and at what cost.
+/// The errors that a measure shall reach, and its limits.
 struct MeasureRequest {
     /// Half of the interval of a volume, relative to the volume, that each region shall reach.
     double rel_error = 0.01;
@@ -58,6 +58,8 @@ struct MeasureRequest {
     std::vector<Density> densities = {};  ///< Densities of the regions; if empty, there are no masses.
     bool walls = false;                   ///< The smallest wall of each region is searched.
     double wall_limit = 0;                ///< Millimetres: regions with a thinner wall are counted. 0: none is.
+
+    static constexpr std::uint64_t most_rays = 1'000'000'000'000;
 };
 
 /// A number, and half the width of its 95 % interval.
@@ -71,7 +73,9 @@ struct Wall {
     Vec3 from = {}, to = {};  ///< its ends
     /// Whether its faces are not parallel there. Then the thickness depends on the angle of 30 degrees.
     bool is_tapered = false;
-    /// The shares of the boundary whose walls are of 2^(i - 16) to 2^(i - 15) mm, as rays near the normals saw them.
+    static constexpr int first_exponent = -16;
+    /// The shares of the boundary whose walls are of 2^(first_exponent + i) mm to twice as much, as rays near the
+    /// normals saw them.
     std::array<double, 32> shares = {};
 };
 
@@ -103,7 +107,7 @@ struct Measured {
     double unmet_bound = 0;                 ///< mm³: what the unmet regions may have at most (95 %)
 };
 
-/// What a measure has found.
+/// The figures that a measure has found.
 struct Measurement {
     std::vector<Measured> parts = {};  ///< all together, assemblies, materials, regions, in the model's order
     bool has_densities = false;

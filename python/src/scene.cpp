@@ -7,6 +7,8 @@
 #include <optional>
 #include <thread>
 
+#include <form/measure.hpp>
+
 #include "values.hpp"
 
 namespace csgrt::python {
@@ -406,13 +408,13 @@ Row measurement(LiveScene& scene, const MeasureRequest& request) {
         for (const Estimate& e : estimates) rows.append(nb::make_tuple(e.value, e.half_width));
         return rows;
     };
-    constexpr const char* kinds[] = {"all", "assembly", "material", "region"};
     Rows parts;
     for (const Measured& m : result.parts)
-        parts.append(nb::make_tuple(
-            kinds[static_cast<int>(m.kind)], m.name, m.id, pairs(std::array{m.volume, m.claimed, m.area, m.mass}),
-            nb::make_tuple(pairs(m.centroid), pairs(m.origin), pairs(m.central)), m.box, m.regions, m.reached, m.unmet,
-            m.weightless, m.unmet_bound, m.thin, wall_row(m.wall)));
+        parts.append(nb::make_tuple(std::string(name_of(measured_kind_names, m.kind)), m.name, m.id,
+                                    pairs(std::array{m.volume, m.claimed, m.area, m.mass}),
+                                    nb::make_tuple(pairs(m.centroid), pairs(m.origin), pairs(m.central)), m.box,
+                                    m.regions, m.reached, m.unmet, m.weightless, m.unmet_bound, m.thin,
+                                    wall_row(m.wall)));
     return nb::make_tuple(parts, result.has_densities, result.reached, result.rays, result.seconds);
 }
 

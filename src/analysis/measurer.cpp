@@ -53,7 +53,7 @@ struct Piece {
     std::vector<std::uint32_t> kept = {};  ///< of these rays, those that meet the box, counted from the first one
 };
 
-/// What a piece's rays have found of a region.
+/// The findings of a piece's rays about a region.
 struct Found {
     std::int32_t region = 0;
     Sums sums = {};
@@ -80,7 +80,7 @@ void check(const MeasureRequest& request) {
     if (!(request.abs_error >= 0)) refuse("the absolute error of a measure must be 0 or more");
     if (!(request.time >= 0)) refuse("the time of a measure must be 0 or more");
     if (!(request.wall_limit >= 0)) refuse("the limit of walls must be 0 mm or more");
-    if (request.rays > 1'000'000'000'000) refuse("a measure traces 1,000,000,000,000 rays at most");
+    if (request.rays > MeasureRequest::most_rays) refuse("a measure traces 1,000,000,000,000 rays at most");
     for (const Density& row : request.densities)
         if (!(row.density >= 0 && std::isfinite(row.density)))
             refuse("the density of " + (row.path.empty() ? "material " + std::to_string(row.material_id) : row.path) +
@@ -382,7 +382,7 @@ bool Measurer::Impl::trace(std::vector<Job>& jobs, const std::function<bool()>& 
     return go_on();
 }
 
-/// What is to be traced next: for each region that has not reached its aim more rays of its own, or more rays through
+/// The jobs of the next round: for each region that has not reached its aim more rays of its own, or more rays through
 /// the whole model in place of those of several regions, if these are fewer.
 std::vector<Job> Measurer::Impl::plan() {
     struct Need {

@@ -51,8 +51,7 @@ struct Chords {
         if (smallest.size() > most) smallest.pop_back();
     }
     void add_area(double size, double area) {
-        constexpr int offset = 16;
-        const int bin = std::clamp(std::ilogb(size) + offset, 0, static_cast<int>(areas.size()) - 1);
+        const int bin = std::clamp(std::ilogb(size) - Wall::first_exponent, 0, static_cast<int>(areas.size()) - 1);
         areas[static_cast<std::size_t>(bin)] += area;
     }
     void add(const Chords& others, double by) {

@@ -3,7 +3,16 @@
 
 #include <csgrt/measure.hpp>
 
-#include "form/form.hpp"
+#include "form/names.hpp"
+
+namespace csgrt {
+
+inline constexpr NameOf<MeasuredKind> measured_kind_names[] = {{"all", MeasuredKind::all},
+                                                               {"assembly", MeasuredKind::assembly},
+                                                               {"material", MeasuredKind::material},
+                                                               {"region", MeasuredKind::region}};
+
+}  // namespace csgrt
 
 namespace csgrt::form {
 
@@ -31,7 +40,7 @@ inline constexpr auto of<MeasureRequest> = Form{
               .value = "S",
               .absent = "no limit",
               .expected = "a number of seconds, 0 or more"}),
-    optional("rays", &MeasureRequest::rays, Amount{1, 1'000'000'000'000},
+    optional("rays", &MeasureRequest::rays, Amount{1, MeasureRequest::most_rays},
              "Rays through the whole model to trace, in place of errors to reach.",
              {.concern = Concern::work, .name = "--rays", .value = "N", .absent = "the errors count"}),
     optional("seed", &MeasureRequest::seed, amount, "Seed of the random numbers.",

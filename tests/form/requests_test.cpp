@@ -188,6 +188,7 @@ std::vector<std::string> made_of_header() {
             enumerators("FASTGEN_", fastgen_names),
             enumerators("CHANNEL_", channel_names),
             enumerators("LIGHT_", lighting_names),
+            enumerators("MEASURED_", measured_kind_names),
             enumerators("", operator_names),
             field_enumerators(),
             c_struct<Settings>(),

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/decimal.hpp"
+#include "form/measure.hpp"
 #include "statistics.hpp"
 #include "tables.hpp"
 
@@ -15,7 +16,6 @@ namespace csgrt::cli {
 namespace {
 
 constexpr std::size_t most_listed = 10;  ///< regions in a list of remarks
-constexpr const char* kinds[] = {"all", "assembly", "material", "region"};
 constexpr const char* axes[] = {"x", "y", "z"};
 constexpr const char* moments[] = {"xx", "yy", "zz", "xy", "yz", "zx"};
 
@@ -185,7 +185,8 @@ std::string json_wall(const Wall& wall) {
     std::string shares;
     for (std::size_t i = 0; i < wall.shares.size(); ++i) {
         if (wall.shares[i] > 0)
-            shares += (shares.empty() ? "[" : ", [") + json_figure(std::ldexp(1.0, static_cast<int>(i) - 16)) + ", " +
+            shares += (shares.empty() ? "[" : ", [") +
+                      json_figure(std::ldexp(1.0, static_cast<int>(i) + Wall::first_exponent)) + ", " +
                       json_figure(wall.shares[i]) + "]";
     }
     return ", \"wall\": {\"thickness\": " + json_figure(wall.thickness) + ", \"from\": " + json_point(wall.from) +
@@ -205,8 +206,9 @@ std::string to_json(const Measurement& result, const MeasureRequest& request) {
         moment + "\", \"central\": \"" + moment + "\", \"box\": \"mm\"},\n  \"parts\": [";
     bool is_first = true;
     for (const Measured& m : result.parts) {
-        text += std::string(is_first ? "" : ",") + "\n    {\"kind\": \"" + kinds[static_cast<int>(m.kind)] +
-                "\", \"name\": " + json_text(m.name) + ", \"id\": " + std::to_string(m.id);
+        text += std::string(is_first ? "" : ",") + "\n    {\"kind\": \"" +
+                std::string(name_of(measured_kind_names, m.kind)) + "\", \"name\": " + json_text(m.name) +
+                ", \"id\": " + std::to_string(m.id);
         is_first = false;
         for_estimates(m, result.has_densities, [&text](const std::string& name, const Estimate& e) {
             text += ", \"" + name + "\": [" + json_figure(e.value) + ", " + json_figure(e.half_width) + "]";
@@ -229,7 +231,7 @@ std::string to_csv(const Measurement& result) {
     });
     text += "\n";
     for (const Measured& m : result.parts) {
-        append_field(text += std::string(kinds[static_cast<int>(m.kind)]) + ",", m.name);
+        append_field(text += std::string(name_of(measured_kind_names, m.kind)) + ",", m.name);
         text += "," + std::to_string(m.id) + "," + std::to_string(m.regions) + "," + std::to_string(m.reached) + "," +
                 std::to_string(m.unmet) + "," + std::to_string(m.weightless) + "," + shortest(m.unmet_bound) + "," +
                 std::to_string(m.thin) + "," + (m.wall.thickness > 0 ? shortest(m.wall.thickness) : std::string());
