@@ -124,6 +124,15 @@ void go(int chains, int steps) {
     CHECK(10 * tally.returns > tally.commits);
 }
 
+/// The scene of a ball at the origin and of `more`, between corners that keep the model's extent.
+Scene between_corners(const std::vector<Object>& more) {
+    Scene scene;
+    scene.objects = {ball("far", {-40, -40, -40}), ball("farther", {40, 40, 40}), ball("ball", {0, 0, 0}),
+                     region("corners", {leg("far"), leg("farther"), op(Operator::union_, 2)})};
+    scene.objects.insert(scene.objects.end(), more.begin(), more.end());
+    return scene;
+}
+
 }  // namespace
 
 TEST_CASE("chains of edits end in the models that are compiled from their scenes", "[promise:edits]") {
@@ -135,10 +144,7 @@ TEST_CASE("chains of edits end in the models that are compiled from their scenes
 }
 
 TEST_CASE("an added part is dragged without compiling the scene again", "[promise:edits]") {
-    Scene scene;
-    scene.objects = {ball("far", {-40, -40, -40}), ball("farther", {40, 40, 40}), ball("ball", {0, 0, 0}),
-                     region("corners", {leg("far"), leg("farther"), op(Operator::union_, 2)}),
-                     group("all", {leg("corners"), leg("ball"), op(Operator::union_, 2)})};
+    Scene scene = between_corners({group("all", {leg("corners"), leg("ball"), op(Operator::union_, 2)})});
     const Model start = Edit(Model(scene)).add(Object(ball("lamp", {3, 0, 0})), true).commit();
     Model model = start;
     for (int i = 0; i < 6; ++i) {
@@ -164,15 +170,10 @@ TEST_CASE("an added part is dragged without compiling the scene again", "[promis
 }
 
 TEST_CASE("one of several instances moves without compiling the scene again", "[promise:edits]") {
-    Scene scene;
-    scene.objects = {ball("far", {-40, -40, -40}),
-                     ball("farther", {40, 40, 40}),
-                     ball("ball", {0, 0, 0}),
-                     region("corners", {leg("far"), leg("farther"), op(Operator::union_, 2)}),
-                     region("a", {leg("ball")}),
-                     region("b", {leg("ball", moved(0, 5, 0))}),
-                     group("g", {leg("a"), leg("b"), op(Operator::union_, 2)}),
-                     group("all", {leg("corners"), leg("g"), leg("g", moved(9, 0, 0)), op(Operator::union_, 3)})};
+    Scene scene =
+        between_corners({region("a", {leg("ball")}), region("b", {leg("ball", moved(0, 5, 0))}),
+                         group("g", {leg("a"), leg("b"), op(Operator::union_, 2)}),
+                         group("all", {leg("corners"), leg("g"), leg("g", moved(9, 0, 0)), op(Operator::union_, 3)})});
     const Model start(scene);
     const Matrix matrix = moved(0, 0.5, 0);
     const Model next = Edit(start).move("/all/g@2/a", moved(0, 0.25, 0)).move("/all/g@2/a", moved(0, 0.25, 0)).commit();
@@ -204,15 +205,9 @@ TEST_CASE("one of several instances moves without compiling the scene again", "[
 }
 
 TEST_CASE("a Model from before an edit that compiled the scene anew is edited in part", "[promise:edits]") {
-    Scene scene;
-    scene.objects = {ball("far", {-40, -40, -40}),
-                     ball("farther", {40, 40, 40}),
-                     ball("ball", {0, 0, 0}),
-                     region("corners", {leg("far"), leg("farther"), op(Operator::union_, 2)}),
-                     region("a", {leg("ball")}),
-                     region("b", {leg("ball")}),
-                     region("c", {leg("ball", moved(9, 0, 0))}),
-                     group("all", {leg("corners"), leg("a"), leg("b"), leg("c"), op(Operator::union_, 4)})};
+    Scene scene = between_corners(
+        {region("a", {leg("ball")}), region("b", {leg("ball")}), region("c", {leg("ball", moved(9, 0, 0))}),
+         group("all", {leg("corners"), leg("a"), leg("b"), leg("c"), op(Operator::union_, 4)})});
     const Model start(scene);
     for (int i = 1; i < 4; ++i) {
         Edit edit(start);
