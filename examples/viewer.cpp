@@ -27,7 +27,7 @@ csgrt::Vec3 sum(const csgrt::Vec3& a, double s, const csgrt::Vec3& b) {
     return {a.x + s * b.x, a.y + s * b.y, a.z + s * b.z};
 }
 
-/// What a gizmo's handle gives: a way in the world.
+/// A gizmo's matrix: a way in the world.
 csgrt::Matrix moved(const csgrt::Vec3& by) {
     csgrt::Matrix matrix = csgrt::identity;
     matrix[3] = by.x;
@@ -79,7 +79,7 @@ struct Viewer {
         const csgrt::Box box = model().bounds();
         return view.camera.center.value_or(sum(sum({}, 0.5, box.low), 0.5, box.high));
     }
-    /// What a pixel beside the middle of the window shows.
+    /// The hit at a pixel beside the middle of the window.
     csgrt::Pick pick(int right = 0) const { return model().pick(view, view.width / 2 + right, view.height / 2); }
     std::string picked_path(int right) const {
         const csgrt::Pick seen = pick(right);

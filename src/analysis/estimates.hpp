@@ -14,7 +14,7 @@ namespace csgrt::analysis {
 /// Replicates are independent, so their sums may be put into few batches, whose means are independent, too.
 inline constexpr std::size_t least_batches = 16, most_batches = 32;
 
-/// What the replicates of a region have summed. The i-th replicate is in the batch i % (number of batches).
+/// The sums of a region's replicates. The i-th replicate is in the batch i % (number of batches).
 struct Source {
     double rays = 0;                     ///< of one grid, approximately
     std::uint32_t replicates = 0;        ///< a multiple of the number of batches

@@ -80,7 +80,7 @@ const Image& Renderer::Impl::draw_beside(const View& view, const Sampling& sampl
     return beside.image_;
 }
 
-/// As draw_beside(), with the view's edges, whose channels the picture may have, too.
+/// Draws as draw_beside() does, with the view's edges, whose channels the picture may have, too.
 const Image& Renderer::Impl::draw_with_edges(const View& view, const Sampling& sampling, std::uint32_t channels,
                                              Watch& watch) {
     draw_beside(view, sampling, view.edges ? channels | edge_channels : channels, watch);

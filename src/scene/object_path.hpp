@@ -51,7 +51,7 @@ MemberPath member_path(const ObjectPath& path, std::size_t step);
 const Matrix& matrix_of(const Names& names, const ObjectPath& path, std::size_t step);
 /// From the coordinates of the object at step `step` of a path to the world's.
 Matrix placement_of(const Names& names, const ObjectPath& path, std::size_t step);
-// The same with matrices that replace the matrices of members.
+// Both functions take other matrices in place of those that `names` has.
 const Matrix& matrix_of(const Names& names, const ObjectPath& path, std::size_t step, const MemberMatrices& moved);
 Matrix placement_of(const Names& names, const ObjectPath& path, std::size_t step, const MemberMatrices& moved);
 

@@ -97,7 +97,7 @@ std::string text_in_g(const ByteSource& source) {
     return {};
 }
 
-/// The same of a text database, which has: put _DENSITIES binunif T 12 D {hexadecimal digits}.
+/// The text of the object of a text database, which has: put _DENSITIES binunif T 12 D {hexadecimal digits}.
 std::string text_in_asc(const TextSource& source) {
     std::size_t at = source.text().find(object_name);
     if (at == std::string_view::npos) return {};

@@ -54,8 +54,8 @@ const SHAPES = {
     span("edge " + "xyz"[i], low, minus(high, low).map((v, k) => k === i ? v : 0)))}),
   arb4: polyhedron, arb5: polyhedron, arb6: polyhedron, arb7: polyhedron, arb8: polyhedron,
 };
-/// What a shape is: `name`, `sizes`, and if it has them `center` and `axis`, a unit vector. Null: its parameters say
-/// nothing that a ruler does.
+/// The form of a shape: `name`, `sizes`, and if it has them `center` and `axis`, a unit vector. Null: its parameters
+/// say nothing that a ruler does.
 export const described = shape => SHAPES[shape?.type]?.(shape) ?? null;
 /// How two faces lie, of which there are a point and a normal each: the distance of parallel ones, else their angle.
 export function between_faces(a, b) {
