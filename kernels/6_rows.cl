@@ -105,7 +105,12 @@ __kernel void describe_rows(__global const Frame* frame, GEOMETRY_ARGS, __global
     describe_boundary(frame, g, rays, boundaries, b.ray, b.out_boundary, 1, id, out_solids, out_normals);
 }
 
-// The cover of an overlap's partition. Its ray is not deep: kernel 4 evaluated the partition.
+// Whether the ray of an overlap is deep. Kernel 4 did not evaluate its partitions; the host lists their claimants.
+static int has_deep_ray(OverlapRecord overlap_record, __global const RayCount* offsets) {
+    return offsets[overlap_record.ray + 1].segments - offsets[overlap_record.ray].segments > DEEP_SEGMENTS;
+}
+
+// The cover of an overlap's partition, whose ray is not deep.
 static cover cover_of(OverlapRecord overlap_record, __global const SolidRecord* solids, REGION_ARGS,
                       __global const RayCount* offsets, __global const Boundary* boundaries, __global const u32* bits) {
     const RayCount offset = offsets[overlap_record.ray];
@@ -121,15 +126,17 @@ static cover cover_of(OverlapRecord overlap_record, __global const SolidRecord* 
     return c;
 }
 
-// Counts the claims for which list_claimants needs memory, one record a work-item.
+// Counts the claims for which list_claimants needs memory, one record a work-item. Deep rays have none.
 __kernel void count_claimants(EVALUATION_ARGS, __global const RayCount* offsets, __global const Boundary* boundaries,
                               __global const u32* bits, __global const OverlapRecord* overlap_records,
                               u32 overlap_count, __global RayCount* places) {
     const u32 id = (u32)get_global_id(0);
     RayCount count;
     if (id >= overlap_count) return;
-    count.words = 0;
-    count.segments = claims_at_most(cover_of(overlap_records[id], solids, starts, trees, offsets, boundaries, bits));
+    count.words = count.segments = 0;
+    if (!has_deep_ray(overlap_records[id], offsets))
+        count.segments =
+            claims_at_most(cover_of(overlap_records[id], solids, starts, trees, offsets, boundaries, bits));
     places[id] = count;
 }
 
@@ -139,6 +146,8 @@ __kernel void list_claimants(__global const Frame* frame, EVALUATION_ARGS, __glo
                              __global const RayCount* places, __global u32* claimants, __global u32* counts) {
     const u32 id = (u32)get_global_id(0);
     if (id >= overlap_count) return;
+    counts[id] = 0;
+    if (has_deep_ray(overlap_records[id], offsets)) return;
     counts[id] = all_claimants(cover_of(overlap_records[id], solids, starts, trees, offsets, boundaries, bits),
                                frame->rank_ends, claimants + places[id].segments);
 }

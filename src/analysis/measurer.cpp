@@ -27,7 +27,7 @@ constexpr std::uint32_t most_replicates = 4096;
 constexpr std::uint32_t grids = 3;         ///< of a replicate
 constexpr double enough_rows = 64;         ///< fewer intervals may look more alike than they are
 constexpr std::size_t piece = 2048;        ///< rays that one thread sums in a row
-constexpr std::size_t at_once = 1u << 17;  ///< rays that are traced at once
+constexpr std::size_t at_once = 1u << 18;  ///< rays that are traced at once
 constexpr auto between_looks = std::chrono::milliseconds(200);
 constexpr std::int32_t everything = -1;
 
@@ -137,6 +137,8 @@ struct Measurer::Impl {
     std::uint64_t traced = 0;
     Clock::time_point start, looked;
     bool is_cut = false;
+    std::vector<Ray> list;  ///< rays that are traced at once
+    std::vector<RayRange> ranges;
     Partitions rows;
 
     double seconds() const { return std::chrono::duration<double>(Clock::now() - start).count(); }
@@ -294,18 +296,18 @@ void Measurer::Impl::flush(std::vector<Piece>& pieces, std::vector<Grid>& all_gr
         firsts.push_back(count);
         count += p.kept.size();
     }
-    std::vector<Ray> rays(count);
-    std::vector<RayRange> ranges(count);
+    list.resize(count);
+    ranges.resize(count);
     for_chunks(pieces.size(), few, threads, [&](std::size_t first, std::size_t last, std::size_t) {
         for (std::size_t i = first; i < last; ++i) {
             const Grid& grid = all_grids[pieces[i].grid];
             for (std::size_t k = 0; k < pieces[i].kept.size(); ++k) {
-                rays[firsts[i] + k] = grid.ray(pieces[i].first + pieces[i].kept[k]);
+                list[firsts[i] + k] = grid.ray(pieces[i].first + pieces[i].kept[k]);
                 ranges[firsts[i] + k] = {0, grid.length};
             }
         }
     });
-    renderer.partitions(rays, rows, {.solids = request.walls, .normals = true, .overlaps = true}, {.each = ranges});
+    renderer.partitions(list, rows, {.solids = request.walls, .normals = true, .overlaps = true}, {.each = ranges});
     traced += count;
     std::vector<std::vector<Found>> found(pieces.size());
     for_chunks(pieces.size(), few, threads, [&](std::size_t first, std::size_t last, std::size_t) {

@@ -48,16 +48,16 @@ public:
         static_assert(std::is_trivially_copyable_v<T>);
         upload(values.data(), values.size() * sizeof(T));
     }
-    /// Reads the first `count` values.
+    /// Reads `count` values, from number `first` on.
     template <class T>
-    std::vector<T> read(std::size_t count) const {
+    std::vector<T> read(std::size_t count, std::size_t first = 0) const {
         static_assert(std::is_trivially_copyable_v<T>);
-        return read_by<T>(device_->queue(), count);
+        return read_by<T>(device_->queue(), count, first);
     }
     /// Reads the first `count` values by the device's copy queue, which does not wait for other queues.
     template <class T>
     std::vector<T> read_beside(std::size_t count) const {
-        return read_by<T>(device_->copy_queue(), count);
+        return read_by<T>(device_->copy_queue(), count, 0);
     }
 
     /// Maps the first `bytes` into the host's memory. If the device is the host's own processor, nothing is copied.
@@ -77,10 +77,10 @@ private:
     Event transfer_out(cl_command_queue queue, void* target, std::size_t bytes, std::size_t offset, bool wait) const;
     void check_range(std::size_t bytes, std::size_t offset) const;
     template <class T>
-    std::vector<T> read_by(cl_command_queue queue, std::size_t count) const {
+    std::vector<T> read_by(cl_command_queue queue, std::size_t count, std::size_t first) const {
         const auto values = std::make_shared<std::vector<T>>(count);
         try {
-            transfer_out(queue, values->data(), count * sizeof(T), 0, true);
+            transfer_out(queue, values->data(), count * sizeof(T), first * sizeof(T), true);
         } catch (...) {
             if (device_->cl().is_lost) keep_for_ever(values);  // the lost device may still write to this memory
             throw;

@@ -18,7 +18,7 @@ constexpr std::size_t most_kept = std::size_t{16} << 20;  ///< bytes, approximat
 /// threads already.
 template <class Work>
 void in_parts(std::size_t count, const Work& work) {
-    constexpr std::size_t part = 1 << 16;
+    constexpr std::size_t part = 1 << 14;
     for_chunks(count, part, count > part ? 0 : 1, [&](std::size_t i, std::size_t end, std::size_t) { work(i, end); });
 }
 
@@ -31,12 +31,6 @@ void add(Array<To>& to, const From* from, std::size_t count) {
     in_parts(count, [&](std::size_t i, std::size_t end) {
         std::memcpy(to.data() + size + i, from + i, (end - i) * sizeof(From));
     });
-}
-
-template <class To>
-void add(Array<To>& to, To value) {
-    to.resize(to.size() + 1);
-    to[to.size() - 1] = value;
 }
 
 }  // namespace
@@ -52,7 +46,8 @@ RowCollector::RowCollector(Partitions& rows, Fields fields, std::uint64_t rays) 
     if (!fields.overlaps) return;
     a.overlap_splits.resize(rays + 1);
     a.overlap_splits[0] = 0;
-    add(a.overlap_region_splits, std::int64_t{0});
+    a.overlap_region_splits.resize(1);
+    a.overlap_region_splits[0] = 0;
 }
 
 void RowCollector::append(const RowView& rows) {
@@ -70,20 +65,28 @@ void RowCollector::append(const RowView& rows) {
     add(answer_.out_normals, rows.out_normals, rows.rows());
     next_ += rows.rays();
     if (!fields().overlaps) return;
-    std::size_t row = 0;
-    for (std::size_t ray = 0; ray < rows.rays(); ++ray) {
-        for (; row < rows.overlaps.size() && rows.overlaps[row].ray == ray; ++row) {
-            const OverlapRow& overlap = rows.overlaps[row];
-            const std::size_t end =
-                row + 1 < rows.overlaps.size() ? rows.overlaps[row + 1].first_region : rows.overlap_regions.size();
-            add(answer_.overlap_t_in, overlap.in);
-            add(answer_.overlap_t_out, overlap.out);
-            add(answer_.overlap_region_ids, rows.overlap_regions.data() + overlap.first_region,
-                end - overlap.first_region);
-            add(answer_.overlap_region_splits, static_cast<std::int64_t>(answer_.overlap_region_ids.size()));
+    const std::span<const OverlapRow> overlaps = rows.overlaps;
+    const std::size_t first = answer_.overlap_t_in.size(), claims = answer_.overlap_region_ids.size();
+    answer_.overlap_t_in.resize(first + overlaps.size());
+    answer_.overlap_t_out.resize(first + overlaps.size());
+    answer_.overlap_region_splits.resize(first + overlaps.size() + 1);
+    add(answer_.overlap_region_ids, rows.overlap_regions.data(), rows.overlap_regions.size());
+    in_parts(overlaps.size(), [&](std::size_t i, std::size_t end) {
+        for (; i < end; ++i) {
+            const bool is_last = i + 1 == overlaps.size();
+            answer_.overlap_t_in[first + i] = overlaps[i].in;
+            answer_.overlap_t_out[first + i] = overlaps[i].out;
+            answer_.overlap_region_splits[first + i + 1] = static_cast<std::int64_t>(
+                claims + (is_last ? rows.overlap_regions.size() : overlaps[i + 1].first_region));
         }
-        answer_.overlap_splits[rows.first + ray + 1] = static_cast<std::int64_t>(answer_.overlap_t_in.size());
-    }
+    });
+    in_parts(rows.rays(), [&](std::size_t ray, std::size_t end) {
+        auto next = std::ranges::lower_bound(overlaps, ray, {}, &OverlapRow::ray);
+        for (; ray < end; ++ray) {
+            while (next != overlaps.end() && next->ray == ray) ++next;
+            answer_.overlap_splits[rows.first + ray + 1] = static_cast<std::int64_t>(first) + (next - overlaps.begin());
+        }
+    });
 }
 
 void RowCollector::put(const RowView& rows) {

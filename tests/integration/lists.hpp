@@ -41,7 +41,7 @@ inline std::vector<RayPartitions> answers_of(PartitionPass& pass, const Partitio
     RowCollector sink(answer, all_fields, input.rays);
     if (!pass.write_rows(input, 0, all_fields, timed)) return {};
     wait_for(timed.back().second);
-    pass.start_copy(input.rays);
+    pass.start_copy();
     sink.put(pass.rows().wait());
     return along_rays(answer);
 }

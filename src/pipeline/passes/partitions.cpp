@@ -127,9 +127,10 @@ std::optional<PartitionSizes> PartitionPass::try_counted(const Input& input, Tim
         sizes.total = read_total(memory_.offsets(), input.rays, timed);
     }
     if (!memory_.reserve_segments(sizes.total)) return {};
-    if (has_deep_rays_ && !deep_rays_.prepare(memory_.offsets().read<kernel::RayCount>(std::size_t{input.rays} + 1),
-                                              memory_.to_reserve(sizes.total.segments)))
-        return {};
+    if (has_deep_rays_) {
+        offsets_ = memory_.offsets().read<kernel::RayCount>(std::size_t{input.rays} + 1);
+        if (!deep_rays_.prepare(offsets_, memory_.to_reserve(sizes.total.segments))) return {};
+    }
     make_partitions(input, sizes.candidates, sizes.total.segments, timed);
     if (has_deep_rays_) deep_rays_.launch(input.batch, input.work, memory_, timed);
     return sizes;
@@ -241,7 +242,7 @@ bool PartitionPass::write_rows(const Input& input, std::uint64_t first, Fields f
     if (!counts) return false;
     scan(*counts, input.rays, timed);
     if (!rows_.write(of, read_total(*counts, input.rays, timed), fields, input.scene, timed)) return false;
-    if (!rows_.has_overlaps() || has_deep_rays_) return true;
+    if (!rows_.has_overlaps()) return true;
     const Buffer* const claims = rows_.count_claimants(of, input.scene, timed);
     if (!claims) return false;
     scan(*claims, rows_.overlaps(), timed);
@@ -251,6 +252,54 @@ bool PartitionPass::write_rows(const Input& input, std::uint64_t first, Fields f
 Event PartitionPass::make_rays(const BatchBuffers& batch, std::uint32_t rays, RayRange range) {
     return make_rays_.launch(rays, work_group, batch.frame, cl_double{range.t_near}, cl_double{range.t_far},
                              batch.rays);
+}
+
+// Rays that are near each other in memory are read at once.
+SomeRays PartitionPass::read_deep_rays() {
+    constexpr std::size_t near = 4096;  // segments
+    struct Block {
+        std::size_t first, end;  // segments
+    };
+    std::vector<Block> blocks;
+    SomeRays deep;
+    std::size_t before = 0;  // segments of the earlier blocks
+    for (std::uint32_t ray = 0; ray + 1 < offsets_.size(); ++ray) {
+        const std::size_t first = offsets_[ray].segments, end = offsets_[ray + 1].segments;
+        if (end - first <= DEEP_SEGMENTS) continue;
+        if (blocks.empty() || first > blocks.back().end + near) {
+            if (!blocks.empty()) before += blocks.back().end - blocks.back().first;
+            blocks.push_back({first, end});
+        }
+        blocks.back().end = end;
+        deep.rays.push_back({ray, static_cast<std::uint32_t>(end - first), before + first - blocks.back().first});
+    }
+    if (blocks.empty()) return deep;
+    const std::size_t segments = before + blocks.back().end - blocks.back().first,
+                      segment_bytes = 2 * records_->boundary_bytes(), node_bytes = 2 * sizeof(kernel::PartitionNode);
+    if (const std::size_t bytes = segments * (segment_bytes + node_bytes); !deep_ || deep_->size() < bytes) {
+        deep_.reset();
+        deep_.emplace(device_, "deep rays", bytes + bytes / 4);
+    }
+    auto* const boundaries = static_cast<std::byte*>(deep_->data());
+    auto* const nodes = boundaries + segments * segment_bytes;
+    std::vector<Event> reads;
+    std::size_t to = 0;
+    for (const auto& [first, end] : blocks) {
+        const std::size_t count = end - first;
+        reads.push_back(memory_.boundaries().queue_read(boundaries + to * segment_bytes, count * segment_bytes,
+                                                        first * segment_bytes));
+        reads.push_back(
+            memory_.partitions().queue_read(nodes + to * node_bytes, count * node_bytes, first * node_bytes));
+        to += count;
+    }
+    for (const Event& read : reads) wait_for(read);
+    deep.boundaries = reinterpret_cast<const kernel::Boundary*>(boundaries);
+    deep.nodes = reinterpret_cast<const kernel::PartitionNode*>(nodes);
+    if (segment_bytes != 2 * sizeof(kernel::Boundary)) {
+        deep_boundaries_ = records_->boundaries({boundaries, nodes});
+        deep.boundaries = deep_boundaries_.data();
+    }
+    return deep;
 }
 
 TracedBatch PartitionPass::read(std::uint32_t rays) {

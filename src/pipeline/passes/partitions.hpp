@@ -71,11 +71,7 @@ public:
     /// Waits for the number of rows only. Returns false if there is not enough memory.
     bool write_rows(const Input& input, std::uint64_t first, Fields fields, TimedKernels& timed);
     /// Starts to copy the rows to the host, once their kernels are done.
-    void start_copy(std::uint32_t rays) {
-        rows_.start_copy();
-        if (!rows_.has_overlaps()) return;
-        has_deep_rays_ ? rows_.append_overlaps(read(rays)) : rows_.read_overlaps();
-    }
+    void start_copy() { rows_.start_copy(has_deep_rays_ && rows_.has_overlaps() ? read_deep_rays() : SomeRays{}); }
     RowPass& rows() { return rows_; }
     /// Reads the results of the last trace_counted(). Waits.
     TracedBatch read(std::uint32_t rays);
@@ -100,6 +96,7 @@ private:
     void sum_segments(const Input& input, std::uint32_t deep_words, TimedKernels& timed);
     void make_partitions(const Input& input, std::uint32_t candidates, std::uint32_t segments, TimedKernels& timed);
     std::optional<PartitionSizes> try_counted(const Input& input, TimedKernels& timed);
+    SomeRays read_deep_rays();
     void sum_blocks(const Buffer& entries, std::uint32_t size, Buffer& sums, TimedKernels& timed);
     void scan(const Buffer& counts, std::uint32_t rays, TimedKernels& timed);
     kernel::RayCount read_total(const Buffer& counts, std::uint32_t rays, const TimedKernels& timed);
@@ -138,9 +135,12 @@ private:
     RowPass rows_;
     Buffer no_buffer_;  ///< a null pointer
     Buffer scan_sums_buffer_;
-    bool has_deep_rays_ = false;        ///< null if the scene has no such solids
-    Average average_, average_before_;  ///< of the last rays whose sizes are known, and of the rays before
-    std::size_t tally_count_ = 0;       ///< of sums
+    bool has_deep_rays_ = false;
+    std::vector<kernel::RayCount> offsets_;          ///< of the rays, if there are deep rays
+    std::optional<PinnedMemory> deep_;               ///< boundaries and nodes of deep rays
+    std::vector<kernel::Boundary> deep_boundaries_;  ///< in double, if the device's are not
+    Average average_, average_before_;               ///< of the last rays whose sizes are known, and of the rays before
+    std::size_t tally_count_ = 0;                    ///< of sums
     QueuedRead read_, read_total_;
 };
 

@@ -22,8 +22,7 @@ RowPass::RowPass(Device& device, const Program& program, const CompiledScene& sc
       overlap_records_(device, "overlaps"),
       claim_places_(device, "places of claims"),
       claimants_(device, "claimants"),
-      claimant_counts_(device, "numbers of claimants"),
-      places_in_staging_(columns) {
+      claimant_counts_(device, "numbers of claimants") {
     for (const char* name : {"rows' regions", "rows' begins", "rows' ends' distances", "rows' first solids",
                              "rows' last solids", "rows' first normals", "rows' last normals"})
         columns_.emplace_back(device, name);
@@ -87,27 +86,33 @@ bool RowPass::write(const Input& input, const kernel::RayCount& total, Fields fi
     return true;
 }
 
-void RowPass::start_copy() {
+void RowPass::start_copy(SomeRays deep) {
     constexpr std::size_t alignment = 64;
-    std::size_t bytes = (std::size_t{rays_} + 1) * sizeof(kernel::RayCount);
-    for (std::size_t i = 0; i < columns; ++i) {
-        places_in_staging_[i] = bytes = (bytes + alignment - 1) / alignment * alignment;
-        if (is_wanted(i, fields_)) bytes += total_.segments * row_bytes(i);
+    const std::size_t records = has_overlaps() ? total_.words : 0;
+    std::vector<std::pair<const Buffer*, std::size_t>> arrays = {
+        {&places_, (std::size_t{rays_} + 1) * sizeof(kernel::RayCount)}};
+    for (std::size_t i = 0; i < columns; ++i)
+        arrays.emplace_back(&columns_[i], is_wanted(i, fields_) ? total_.segments * row_bytes(i) : 0);
+    arrays.emplace_back(&overlap_records_, records * records_->overlap_bytes());
+    arrays.emplace_back(&claim_places_, records * sizeof(kernel::RayCount));
+    arrays.emplace_back(&claimants_, records ? claims_ * sizeof(std::uint32_t) : 0);
+    arrays.emplace_back(&claimant_counts_, records * sizeof(std::uint32_t));
+    std::size_t all = 0;
+    places_in_staging_.clear();
+    for (const auto& [buffer, bytes] : arrays) {
+        places_in_staging_.push_back(all);
+        all += (bytes + alignment - 1) / alignment * alignment;
     }
-    if (!staging_ || staging_->size() < bytes) {
+    if (!staging_ || staging_->size() < all) {
         staging_.reset();
-        staging_.emplace(device_, "rows", bytes + bytes / 4);
+        staging_.emplace(device_, "rows", all + all / 4);
     }
-    auto* const memory = static_cast<std::byte*>(staging_->data());
     is_underway_ = true;
     copies_.clear();
-    copies_.push_back(places_.copy_read(memory, (std::size_t{rays_} + 1) * sizeof(kernel::RayCount)));
-    for (std::size_t i = 0; i < columns; ++i)
-        if (is_wanted(i, fields_) && total_.segments > 0)
-            copies_.push_back(columns_[i].copy_read(memory + places_in_staging_[i], total_.segments * row_bytes(i)));
+    for (std::size_t i = 0; i < arrays.size(); ++i)
+        if (const auto& [buffer, bytes] = arrays[i]; bytes > 0) copies_.push_back(buffer->copy_read(staged(i), bytes));
     device_.flush_copies();
-    memory_.overlaps.clear();
-    memory_.overlap_regions.clear();
+    deep_ = std::move(deep);
 }
 
 const Buffer* RowPass::count_claimants(const Input& input, const SceneTables& scene, TimedKernels& timed) {
@@ -131,29 +136,28 @@ bool RowPass::list_claimants(const Input& input, std::uint32_t claims, const Sce
     return true;
 }
 
-void RowPass::read_overlaps() {
-    const auto overlap_records =
-        records_->overlap_records(overlap_records_.read<std::byte>(total_.words * records_->overlap_bytes()));
-    const auto places = claim_places_.read<kernel::RayCount>(overlap_records.size());
-    const auto claimants = claimants_.read<std::uint32_t>(claims_),
-               counts = claimant_counts_.read<std::uint32_t>(overlap_records.size());
-    for (std::size_t i = 0; i < overlap_records.size(); ++i)
-        append_overlap(overlap_records[i].ray, overlap_records[i].in, overlap_records[i].out,
-                       std::span(claimants).subspan(places[i].segments, counts[i]), memory_);
-}
-
-void RowPass::append_overlaps(const TracedBatch& traced) {
-    const auto overlap_records =
-        records_->overlap_records(overlap_records_.read<std::byte>(total_.words * records_->overlap_bytes()));
-    csgrt::append_overlaps(*scene_, overlap_records,
-                           {traced.offsets.data(), traced.boundaries.data(), traced.nodes.data()}, memory_);
+void RowPass::take_overlaps() {
+    memory_.overlaps.clear();
+    memory_.overlap_regions.clear();
+    if (!has_overlaps()) return;
+    constexpr std::size_t first = 1 + columns;
+    const auto* const bytes = staged(first);
+    std::vector<kernel::OverlapRecord> converted;
+    std::span records(reinterpret_cast<const kernel::OverlapRecord*>(bytes), total_.words);
+    if (records_->overlap_bytes() != sizeof(kernel::OverlapRecord))
+        records = converted = records_->overlap_records({bytes, bytes + total_.words * records_->overlap_bytes()});
+    csgrt::take_overlaps(*scene_,
+                         {records, reinterpret_cast<const kernel::RayCount*>(staged(first + 1)),
+                          reinterpret_cast<const std::uint32_t*>(staged(first + 2)),
+                          reinterpret_cast<const std::uint32_t*>(staged(first + 3)), deep_},
+                         memory_);
 }
 
 /// A column, converted to the host's numbers.
 template <class T>
 const T* RowPass::column(std::size_t number, std::vector<T>& converted) const {
     if (!is_wanted(number, fields_)) return nullptr;
-    const std::byte* const memory = static_cast<const std::byte*>(staging_->data()) + places_in_staging_[number];
+    const std::byte* const memory = staged(1 + number);
     if (row_bytes(number) == sizeof(T)) return reinterpret_cast<const T*>(memory);
     const auto* const singles = reinterpret_cast<const float*>(memory);
     const std::size_t count = total_.segments * sizeof(T) / sizeof(double);
@@ -166,6 +170,7 @@ RowView RowPass::wait() {
     is_underway_ = false;
     for (const Event& copy : copies_) wait_for(copy);
     copies_.clear();
+    take_overlaps();
     const auto* const places = static_cast<const kernel::RayCount*>(staging_->data());
     std::vector<std::int32_t> unused;
     return {.first = first_,

@@ -38,19 +38,15 @@ public:
     bool write(const Input& input, const kernel::RayCount& total, Fields fields, const SceneTables& scene,
                TimedKernels& timed);
     /// Whether overlaps are wanted and exist. Then their claimants have to be found by a kernel (the next two
-    /// functions) or, if there are deep rays, by the host (append_overlaps).
+    /// functions), and those of deep rays by the host.
     bool has_overlaps() const { return fields_.overlaps && total_.words > 0; }
     /// Counts the claims of each overlap; the caller scans the overlaps() counts. Returns null if there is not enough
     /// memory.
     const Buffer* count_claimants(const Input& input, const SceneTables& scene, TimedKernels& timed);
     /// Lists the claimants. `claims`: the sum of the counts. Returns false if there is not enough memory.
     bool list_claimants(const Input& input, std::uint32_t claims, const SceneTables& scene, TimedKernels& timed);
-    /// Starts to copy the rows. To be called when their kernels are done.
-    void start_copy();
-    /// Reads overlaps and claimants, and waits for them.
-    void read_overlaps();
-    /// Finds the claimants on the host, where no kernel has listed them.
-    void append_overlaps(const TracedBatch& traced);
+    /// Starts to copy the rows. To be called when their kernels are done. `deep`: the deep rays, if there are overlaps.
+    void start_copy(SomeRays deep);
     /// Waits for the rows whose copy was started last, and returns them. They are valid until the next copy.
     RowView wait();
     /// Drops the rows.
@@ -73,6 +69,10 @@ private:
     bool reserve(const std::vector<std::pair<Buffer*, std::uint64_t>>& wanted);
     template <class T>
     const T* column(std::size_t number, std::vector<T>& converted) const;
+    std::byte* staged(std::size_t array) const {
+        return static_cast<std::byte*>(staging_->data()) + places_in_staging_[array];
+    }
+    void take_overlaps();
 
     Device& device_;
     const CompiledScene* scene_;
@@ -80,9 +80,10 @@ private:
     Kernel count_rows_, write_rows_, describe_rows_, count_claimants_, list_claimants_;
     Buffer places_, bounds_, overlap_records_, claim_places_, claimants_, claimant_counts_;
     std::vector<Buffer> columns_;          ///< by Column
-    std::optional<PinnedMemory> staging_;  ///< of the positions and the columns, one after the other
+    std::optional<PinnedMemory> staging_;  ///< of all arrays, one after the other
     std::vector<Event> copies_;
-    std::vector<std::size_t> places_in_staging_;
+    std::vector<std::size_t> places_in_staging_;  ///< of the rays' places, the columns, and the overlaps' four arrays
+    SomeRays deep_;
     kernel::RayCount total_{};
     std::uint32_t claims_ = 0;
     Fields fields_;

@@ -216,7 +216,7 @@ void SynchronousSchedule::trace_list(const kernel::Frame& list, const RayList& r
         pass.add_sizes(*sizes, batch.rays, counts);
         finish_trace(batch.rays, true, timed, counts);
         wait_for(rays_upload_);
-        pass.start_copy(batch.rays);
+        pass.start_copy();
         counts.overlaps += pass.rows().overlaps();
         copied = batch;
         ++counts.batches;
