@@ -7,6 +7,7 @@ const folder = new URL("../../src/view/page/", import.meta.url);
 const load = name => import(new URL(name + ".mjs", folder));
 const camera = await load("camera"), looks = await load("looks"), numbers = await load("numbers");
 const link = await load("link"), rates = await load("rates"), search = await load("search");
+const {described} = await load("shapes");
 const {Steps} = await load("undo");
 
 /// Numbers between 0 and 1, the same in every run.
@@ -42,6 +43,37 @@ test("a turn keeps the pivot in its place, a zoom and a pan what is under the po
     near(seen(camera.zoomed(before, 0.3 + random(), 1000, x, y, z)), [x, y], 1e-6, "zoomed");
     near(seen(camera.panned(before, 13, -7, z)), [x + 13, y - 7], 1e-6, "panned");
   }
+});
+
+test("sizes of quadrics, of superellipsoids and of tori with an ellipse, in any place", () => {
+  const axis = [0, 3, 4], a = [0, -8, 6], base = [1, 2, 3], height = [0, 15, 20];
+  for (const [name, shape, wanted] of [
+    ["paraboloid", {type: "epa", base, height, a, r1: 6, r2: 6}, {"diameter at the base": 12, height: 25}],
+    ["elliptical hyperboloid", {type: "ehy", base, height, a, r1: 6, r2: 4, c: 2},
+      {"diameter 1 at the base": 12, "diameter 2 at the base": 8, height: 25}],
+    ["hyperboloid of one sheet", {type: "hyp", base, height, a, b: 10, neck: 0.4},
+      {"diameter at the ends": 20, "diameter at the waist": 8, height: 25}],
+    ["elliptical hyperboloid of one sheet", {type: "hyp", base, height, a, b: 5, neck: 0.4},
+      {"diameter 1 at the ends": 20, "diameter 2 at the ends": 10, "diameter 1 at the waist": 8,
+       "diameter 2 at the waist": 4, height: 25}],
+    ["superellipsoid", {type: "superell", center: base, a: [0, 3, 4], b: [7, 0, 0], c: [0, -4, 3], n: 0.5, e: 1},
+      {"diameter 1": 10, "diameter 2": 14, "diameter 3": 10}],
+    ["elliptical torus", {type: "eto", center: base, axis, radius: 20, c: a, d: 3},
+      {"diameter of the ring's middle": 40, "diameter 1 of the tube": 20, "diameter 2 of the tube": 6, diameter: 60,
+       height: 6}],
+    ["elliptical torus", {type: "eto", center: base, axis, radius: 20, c: axis, d: 5},
+      {"diameter of the ring's middle": 40, "diameter of the tube": 10, diameter: 50, height: 10}]]) {
+    const form = described(shape);
+    assert.equal(form.name, name);
+    assert.deepEqual(form.sizes.map(({label}) => label), Object.keys(wanted));
+    for (const {label, mm, ends: [from, to]} of form.sizes) {
+      assert.ok(Math.abs(mm - wanted[label]) < 1e-12 * 60, `${name}, ${label}: ${mm}`);
+      assert.ok(Math.abs(Math.hypot(...numbers.minus(to, from)) - mm) < 1e-12 * 60, `${name}, ${label}: the ends`);
+    }
+  }
+  const ring = described({type: "eto", center: [0, 0, 0], axis: [0, 0, 2], radius: 20, c: [0, 3, 4], d: 2});
+  const [, , , whole, height_of] = ring.sizes;  // the reach of an ellipse that stands aslant
+  near([whole.mm, height_of.mm], [2 * (20 + Math.hypot(3, 1.6)), 2 * Math.hypot(4, 1.2)], 1e-12, "aslant");
 });
 
 const regions_of = paths => ({paths, own_looks: [{state: "shown", color: [1, 1, 1]}], look_of: paths.map(() => 0)});
