@@ -756,7 +756,8 @@ class Browser(unittest.TestCase):
 
     def test_keys(self):
         page, camera = self.page, lambda: self.page.view()["camera"]
-        for key, azimuth, elevation in (("1", 0, 0), ("3", 270, 0), ("7", 270, 90), ("9", 35, 25)):
+        for key, azimuth, elevation in (("1", 0, 0), ("2", 180, 0), ("3", 270, 0), ("4", 90, 0), ("7", 270, 90),
+                                        ("8", 270, -90), ("9", 35, 25)):
             page.keys(key)
             self.assertEqual((camera()["azimuth"], camera()["elevation"]), (azimuth, elevation))
         page.keys(Keys.ARROW_LEFT, Keys.ARROW_UP)

@@ -33,8 +33,11 @@ export const ARROWS = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1],
 /// Rows of the help: the keys, what the help says, what they do.
 export const KEYS = [
   [["1"], "front: azimuth 0, elevation 0", look_from(0, 0)],
+  [["2"], "back: azimuth 180, elevation 0", look_from(180, 0)],
   [["3"], "right, as in BRL-CAD: azimuth 270, elevation 0", look_from(270, 0)],
+  [["4"], "left: azimuth 90, elevation 0", look_from(90, 0)],
   [["7"], "top: azimuth 270, elevation 90", look_from(270, 90)],
+  [["8"], "bottom: azimuth 270, elevation -90", look_from(270, -90)],
   [["9"], "iso: azimuth 35, elevation 25", look_from(35, 25)],
   [["5"], "parallel or perspective (30 degrees)", toggle_perspective],
   [["f", "Enter"], "fit what is shown", event => act.fit_shown(event)],
