@@ -8,6 +8,7 @@ namespace csgrt::kernel {
 #include "../kernels/traversal/camera.h"
 #include "../kernels/geometry/collect.h"
 #include "../kernels/geometry/beyond.h"
+#include "../kernels/shading/edge.h"
 #include "../kernels/shading/pixel.h"
 #include "../kernels/boolean/rows.h"
 
