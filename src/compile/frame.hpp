@@ -21,6 +21,8 @@ struct PreparedFrame {
     /// For each tile of the screen, the distance at and behind which its pixels may have anything, also the background.
     /// Empty: every pixel has its first hit. Only of first hits; the first channel is then the distance.
     std::vector<float> ends;
+    /// The devices draw the picture's edges, by its channels of distances, normals and ids.
+    bool edges = false;
 };
 
 /// The rays of a view that are drawn: every `step`-th column and line from the first ones on, moved by a fraction of a

@@ -13,6 +13,7 @@ PipelineCounts& PipelineCounts::operator+=(const PipelineCounts& other) {
     segment_bytes += other.segment_bytes;
     partition_bytes += other.partition_bytes;
     batches += other.batches;
+    has_edges |= other.has_edges;
     done.insert(done.end(), other.done.begin(), other.done.end());
     retried += other.retried;
     count_segments += other.count_segments;

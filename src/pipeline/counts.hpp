@@ -15,6 +15,7 @@ struct PipelineCounts {
     std::uint64_t ends = 0, segments = 0, partitions_used = 0, partitions_allocated = 0, overlaps = 0;
     std::uint64_t segment_bytes = 0, partition_bytes = 0;
     std::uint32_t batches = 0, retried = 0;  ///< retried: batches that ran again because the buffers were too small
+    bool has_edges = false;                  ///< the frame's edges are drawn
     std::vector<RayBatch> done;              ///< the batches
     double count_segments = 0, scan = 0, store_segments = 0, weave = 0, evaluate = 0, shade = 0, rows = 0;
     double cull_tiles = 0, first_hits = 0;

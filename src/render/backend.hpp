@@ -50,6 +50,10 @@ public:
     /// Waits until a device has the kernels for every partition, or for first hits. To be called before each render()
     /// or trace().
     virtual void prepare(bool every_partition) = 0;
+    /// Whether render() is likely to draw the frame's edges (PreparedFrame::edges). To be called after prepare().
+    virtual bool draws_edges(const PreparedFrame&) const { return false; }
+    /// Whether the last render() drew the edges. It draws none if the picture was not on a device as a whole.
+    virtual bool has_drawn_edges() const { return false; }
     virtual void render(const PreparedFrame& frame, const FrameMemory& memory, Watch& watch) = 0;
     /// Puts the rows of every ray into the receiver.
     virtual void trace(const kernel::Frame& frame, const RayList& rays, RowReceiver& receiver, Watch& watch) = 0;

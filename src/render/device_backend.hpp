@@ -20,6 +20,10 @@ public:
     /// Sets the model. Devices get it when they are next used.
     void set_model(std::shared_ptr<const ModelInUse> model) override;
     void prepare(bool every_partition) override;
+    bool draws_edges(const PreparedFrame& frame) const override {
+        return !spot_check_.is_on() && drawer_ && drawer_->draws_edges(frame);  // the reference draws none
+    }
+    bool has_drawn_edges() const override { return counts_.has_edges; }
     void render(const PreparedFrame& frame, const FrameMemory& memory, Watch& watch) override;
     void trace(const kernel::Frame& frame, const RayList& rays, RowReceiver& receiver, Watch& watch) override;
     void check(const kernel::Frame& frame, const RayList& rays, const RowReceiver& receiver, Watch& watch) override;

@@ -50,15 +50,19 @@ void Renderer::Impl::fit(Framebuffer& framebuffer, const kernel::Frame& frame, s
     framebuffer.image_.are_ids = std::move(are_ids);
 }
 
-/// Draws the frame's channels, which the framebuffer has.
+/// Draws the frame's channels. The framebuffer has them, except, for a frame with edges, those of its surfaces.
 void Renderer::Impl::draw(const PreparedFrame& prepared, Framebuffer& framebuffer, Watch& watch) {
+    const kernel::Pixel background = kernel::background_pixel(&prepared.frame);
+    Image& image = framebuffer.image_;
     std::vector<const ChannelSource*> sources;
     std::vector<ChannelMemory> channels;
+    std::size_t own = 0;  // the frame's channels come first
     for (const ChannelSource& source : channel_table) {
         if (!(prepared.frame.channels & source.group)) continue;
-        const std::size_t i = sources.size();  // the frame's channels come first
+        const bool has = own < image.names.size() && image.names[own] == source.name;
         sources.push_back(&source);
-        channels.push_back({framebuffer.image_.channels[i].data(), framebuffer.background_[i]});
+        channels.push_back(
+            {has ? image.channels[own++].data() : nullptr, source.value(background, scene().display[0])});
     }
     try {
         backend->render(
@@ -80,13 +84,26 @@ const Image& Renderer::Impl::draw_beside(const View& view, const Sampling& sampl
     return beside.image_;
 }
 
+/// The frame whose edges a device draws. Nothing if no device can: then the host draws them.
+std::optional<PreparedFrame> Renderer::Impl::with_edges(PreparedFrame prepared) const {
+    prepared.frame.channels |= edge_channels;
+    prepared.edges = true;
+    return backend->draws_edges(prepared) ? std::optional(std::move(prepared)) : std::nullopt;
+}
+
 /// Draws as draw_beside() does, with the view's edges, whose channels the picture may have, too.
 const Image& Renderer::Impl::draw_with_edges(const View& view, const Sampling& sampling, std::uint32_t channels,
                                              Watch& watch) {
-    draw_beside(view, sampling, view.edges ? channels | edge_channels : channels, watch);
-    if (view.edges)
-        draw_edges(prepare_frame(scene_of(ClaimingRegions::shown), view, tolerance, sampling), beside.image_,
-                   beside.image_);
+    if (!view.edges) return draw_beside(view, sampling, channels, watch);
+    PreparedFrame prepared = prepare_frame(scene_of(ClaimingRegions::shown), view, tolerance, sampling);
+    prepared.frame.channels = channels;
+    if (const std::optional<PreparedFrame> of_device = with_edges(prepared)) {
+        fit(beside, prepared.frame, channels, watch);
+        draw(*of_device, beside, watch);
+        if (backend->has_drawn_edges()) return beside.image_;
+    }
+    draw_beside(view, sampling, channels | edge_channels, watch);
+    draw_edges(prepared, beside.image_, beside.image_);
     return beside.image_;
 }
 
@@ -240,15 +257,21 @@ void Renderer::Impl::render(const View& view, Framebuffer& framebuffer, const st
     const std::uint32_t more =
         ((has_edges ? edge_channels : 0) | (has_ghosts ? channel::distance : 0)) & ~prepared.frame.channels;
     Image& image = framebuffer.image_;
-    bool is_whole = true;
-    if (coarse || more)
-        is_whole = draw_coarse(view, prepared.frame.channels, more, framebuffer, coarse, watch);
-    else
-        draw(prepared, framebuffer, watch);
+    bool is_whole = true, are_edges_drawn = false;
+    if (const auto of_device = has_edges && !has_ghosts && !coarse ? with_edges(prepared) : std::nullopt) {
+        draw(*of_device, framebuffer, watch);
+        are_edges_drawn = backend->has_drawn_edges();
+    }
+    if (!are_edges_drawn) {
+        if (coarse || more)
+            is_whole = draw_coarse(view, prepared.frame.channels, more, framebuffer, coarse, watch);
+        else
+            draw(prepared, framebuffer, watch);
+    }
     if (wants_ghosts) std::ranges::fill(image.channels.ids(image.channels.size() - 1), 0u);
     if (is_whole) {
         const Image& surfaces = more ? beside.image_ : image;
-        if (has_edges) draw_edges(prepared, surfaces, image);
+        if (has_edges && !are_edges_drawn) draw_edges(prepared, surfaces, image);
         if (has_ghosts) add_ghosts(view, framebuffer, surfaces.channel("Z"), watch);
         if (view.samples > 1 && has_colors) {
             prepare(every_partition, ClaimingRegions::shown);  // add_ghosts() left the ghosts' model

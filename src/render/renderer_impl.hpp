@@ -7,6 +7,7 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
 
 #include <csgrt/renderer.hpp>
 
@@ -54,6 +55,7 @@ struct Renderer::Impl {
     void fit(Framebuffer& framebuffer, const kernel::Frame& frame, std::uint32_t channels, const Watch& watch) const;
     void draw(const PreparedFrame& prepared, Framebuffer& framebuffer, Watch& watch);
     const Image& draw_beside(const View& view, const Sampling& sampling, std::uint32_t channels, Watch& watch);
+    std::optional<PreparedFrame> with_edges(PreparedFrame prepared) const;
     const Image& draw_with_edges(const View& view, const Sampling& sampling, std::uint32_t channels, Watch& watch);
     bool draw_coarse(const View& view, std::uint32_t channels, std::uint32_t more, Framebuffer& framebuffer,
                      const std::function<bool(int)>& coarse, Watch& watch);

@@ -18,6 +18,7 @@ public:
     /// must outlive the object.
     explicit SpotCheck(const Settings& settings) : settings_(settings) {}
 
+    bool is_on() const { return settings_.check != 0; }
     /// Forgets the scene: the next batches are of another scene.
     void forget_scene() { reference_.reset(); }
 

@@ -35,7 +35,7 @@ foreach(number double single relative)
     check(${${number}} FILES 0_cull_tiles.cl ${every_partition})
     check(${${number}} -DCSGRT_PRIVATE_BOUNDARIES -DCSGRT_FEW=64u
         FILES 0_cull_tiles.cl shading/first_hits_ray.h first_hits.cl)
-    check(${${number}} FILES tile_list.cl)
+    check(${${number}} FILES tile_list.cl edges.cl)
 endforeach()
 check(${packets} FILES 0_cull_tiles.cl 1_packet_candidates.cl ${every_partition})
 check(${packets} -DCSGRT_PRIVATE_BOUNDARIES -DCSGRT_PREFETCH

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "catch.hpp"
+#include "integration/deep_scenes.hpp"
 #include "integration/same_answers.hpp"
 #include "integration/scenes.hpp"
 #include "scene/vector.hpp"
@@ -178,13 +179,19 @@ TEST_CASE("edges: the same pixels on every device, in every form of the picture,
         for (std::size_t i = 0; i < words.size(); ++i)
             for (std::size_t c = 0; c < 3; ++c) REQUIRE((words[i] >> 8 * c & 255u) == bytes[4 * i + c]);
 
-        view.channels = channel::display;  // the surfaces are drawn beside the picture
+        view.channels = channel::display;  // the surfaces are drawn beside the picture, or stay on the device
         Framebuffer framebuffer;
-        for (int i = 0; i < 3; ++i) {
-            native.render(view, framebuffer);
-            const auto shown = framebuffer.image().ids("RGBA8");
-            REQUIRE(std::equal(shown.begin(), shown.end(), words.begin()));
-        }
+        for (Renderer* const renderer : {&device, &native})
+            for (int i = 0; i < 3; ++i) {
+                renderer->render(view, framebuffer);
+                const auto shown = framebuffer.image().ids("RGBA8");
+                REQUIRE(std::equal(shown.begin(), shown.end(), words.begin()));
+            }
+        view.samples = 3;
+        view.channels = channel::color;
+        test::require_same(device.render(view), native.render(view));
+        view.samples = 1;
+        view.channels = channel::display;
         int steps = 0;
         native.render(view, framebuffer, [&](int) { return ++steps < 9; });
         CHECK(steps == 3);
@@ -192,6 +199,26 @@ TEST_CASE("edges: the same pixels on every device, in every form of the picture,
         view.edges = false;
         native.render(view, framebuffer);
         CHECK_FALSE(std::ranges::equal(framebuffer.image().ids("RGBA8"), words));
+    }
+}
+
+TEST_CASE("edges where rays need more memory than a kernel of first hits has, and where memory is short") {
+    const Scene scene = test::nested_balls(100, {Operator::intersection}, test::Form::list);
+    View view = view_with_edges();
+    view.channels = channel::display;
+    view.light = Lighting::studio;
+    Renderer native(scene, {}, test::on_native_device()), reference(scene, {}, {.reference = true});
+    const Image expected = reference.render(view);
+    test::require_same(native.render(view), expected);
+    for (const std::uint64_t room : {0, 400'000}) {
+        Settings settings = test::on_device();
+        if (room) settings.max_memory = Renderer(scene, {}, settings).statistics().device_bytes + room;
+        Framebuffer framebuffer;
+        Renderer device(scene, {}, settings);
+        for (int i = 0; i < 2; ++i) {
+            device.render(view, framebuffer);
+            test::require_same(framebuffer.image(), expected);
+        }
     }
 }
 

@@ -9,9 +9,10 @@ namespace csgrt {
 static_assert(COST_CLASSES <= work_group);  // one work-item a class
 
 void TileListPass::build() {
-    program_.emplace(device_, assemble_program({"tile_list.cl"}));
+    program_.emplace(device_, assemble_program({"tile_list.cl", "edges.cl"}));
     count_.emplace(program_->kernel("count_tiles"));
     write_background_.emplace(program_->kernel("write_background"));
+    draw_edges_.emplace(program_->kernel("draw_edges"));
     list_.emplace(program_->kernel("list_tiles"));
 }
 
@@ -29,6 +30,10 @@ Event TileListPass::write_background(const kernel::Frame& frame, const RayBatch&
     if (channels == 0) return {};
     return write_background_->launch(batch.rays, tile_rays, costs, frame.screen, cl_uint{batch.first},
                                      cl_uint{frame.rows}, cl_uint{channels}, background, picture);
+}
+
+Event TileListPass::draw_edges(const RayBatch& batch, const BatchBuffers& buffers, const Buffer& picture) {
+    return draw_edges_->launch(batch.rays, tile_rays, buffers.frame, buffers.report, picture);
 }
 
 }  // namespace csgrt

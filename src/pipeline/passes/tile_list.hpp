@@ -1,5 +1,5 @@
-// Tile list: on a GPU, for batches whose pixels are row-major, kernels list the tiles that see anything and write the
-// background of the others (kernels/tile_list.cl).
+// Tile list: on a GPU, for batches whose pixels are row-major, kernels list the tiles that see anything, write the
+// background of the others (kernels/tile_list.cl), and draw edges (kernels/edges.cl).
 #pragma once
 
 #include <array>
@@ -9,8 +9,8 @@
 
 namespace csgrt {
 
-/// The pass launches the kernels of kernels/tile_list.cl. The list is made on the device, so the host can queue the
-/// drawing kernels without waiting for the list.
+/// The pass launches these kernels. The list is made on the device, so the host can queue the drawing kernels without
+/// waiting for the list.
 class TileListPass {
 public:
     explicit TileListPass(Device& device) : device_(device) {}
@@ -27,6 +27,9 @@ public:
     /// Writes the background of the tiles whose cost is 0 into a row-major picture. Does not wait.
     Event write_background(const kernel::Frame& frame, const RayBatch& batch, const Buffer& costs,
                            const kernel::ChannelValues& background, std::uint32_t channels, const Buffer& picture);
+    /// Draws the edges of a batch that is a whole picture, with its distances, normals and ids, after the first hits.
+    /// Draws nothing if rays overflowed. Does not wait.
+    Event draw_edges(const RayBatch& batch, const BatchBuffers& buffers, const Buffer& picture);
 
     /// The number of expensive tiles that keep the device busy even as whole tiles.
     static std::uint32_t most_in_parts(const Device& device) { return 4 * device.info().compute_units; }
@@ -34,7 +37,7 @@ public:
 private:
     Device& device_;
     std::optional<Program> program_;
-    std::optional<Kernel> count_, list_, write_background_;
+    std::optional<Kernel> count_, list_, write_background_, draw_edges_;
 };
 
 }  // namespace csgrt

@@ -46,6 +46,7 @@ struct BatchTiles {
 };
 
 void fill(const ChannelMemory& channel, std::size_t width, const Rectangle& r) {
+    if (!channel.has_memory()) return;
     for (std::size_t y = r.top; y < r.bottom; ++y)
         std::fill_n(channel.pixels + y * width + r.left, r.columns(), channel.background);
 }
@@ -163,7 +164,8 @@ void put_rays(const kernel::Frame& frame, std::span<const std::uint32_t> numbers
         if (!at.inside) continue;
         target.covered[at.y / TILE * across + at.x / TILE] = 1;
         for (std::size_t p = 0; p < target.channels.size(); ++p)
-            target.channels[p].pixels[std::size_t{at.y} * frame.width + at.x] = values[p * numbers.size() + i];
+            if (target.channels[p].has_memory())
+                target.channels[p].pixels[std::size_t{at.y} * frame.width + at.x] = values[p * numbers.size() + i];
     }
 }
 

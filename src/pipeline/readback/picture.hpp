@@ -12,10 +12,12 @@ namespace csgrt {
 class RegisteredMemory;
 
 /// One channel of an image: width x height floats, row by row from the top left, and the value of pixels that see
-/// nothing.
+/// nothing. Without memory, the channel stays on the device, where a frame's edges need it.
 struct ChannelMemory {
     float* pixels = nullptr;
     float background = 0;
+
+    bool has_memory() const { return pixels != nullptr; }
 };
 
 /// The memory that a frame is drawn into.

@@ -44,16 +44,22 @@ void ReadbackRing::collect(const kernel::Frame& frame, const RayBatch& batch, st
     if (target.channels.empty()) return;
     const Rectangle all = rows_of(frame, first, end);
     std::vector<CopyFeed::Copy> copies;
+    const std::size_t count = target.channels.size();
     for (const Rectangle& r : take_rectangles(frame, first, end, shown, target))
-        copies.push_back({.columns = r.columns(),
-                          .lines = r.lines(),
-                          .channels = target.channels.size(),
-                          .begin = (r.top - all.top) * all.columns() + r.left - all.left,
-                          .pitch = all.columns(),
-                          .slice = all.size(),
-                          .target = target.channels.front().pixels + r.top * frame.width + r.left,
-                          .target_pitch = frame.width,
-                          .target_slice = std::size_t{frame.width} * frame.height});
+        for (std::size_t c = 0; c < count; ++c) {
+            const std::size_t begin = c;
+            while (c < count && target.channels[c].has_memory()) ++c;
+            if (c == begin) continue;
+            copies.push_back({.columns = r.columns(),
+                              .lines = r.lines(),
+                              .channels = c - begin,
+                              .begin = begin * all.size() + (r.top - all.top) * all.columns() + r.left - all.left,
+                              .pitch = all.columns(),
+                              .slice = all.size(),
+                              .target = target.channels[begin].pixels + r.top * frame.width + r.left,
+                              .target_pitch = frame.width,
+                              .target_slice = std::size_t{frame.width} * frame.height});
+        }
     if (copies.empty()) return;
     const bool is_registered = target.registered && target.registered->has(device_);
     picture.copied = copies_.add(picture.buffer, std::move(copies), is_registered);

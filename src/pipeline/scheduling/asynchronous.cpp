@@ -161,6 +161,9 @@ bool AsynchronousSchedule::start(Batch& batch, const FrameJob& job, const RayBat
         ReadbackRing::wait(*batch.picture);
         write_background(batch, job);
         batch.drawing = passes_.first_hits().launch(*passes_.tables, batch.buffers, batch.picture->buffer, rays.rays);
+        if (job.has_edges(rays))
+            batch.drawing.emplace_back(&PipelineCounts::shade,
+                                       passes_.tile_list().draw_edges(rays, batch.buffers, batch.picture->buffer));
         batch.stage = Stage::shaded;
     }
     passes_.device.flush();
@@ -249,6 +252,7 @@ void AsynchronousSchedule::collect_first_hits(Batch& batch, const FrameJob& job)
     const std::vector<std::uint32_t> numbers =
         batch.buffers.overflown.read_beside<std::uint32_t>(batch.report().overflows);
     overflown_.insert(overflown_.end(), numbers.begin(), numbers.end());
+    job.counts.has_edges = job.has_edges(batch.rays) && numbers.empty();
     read_pixels(batch, job);
 }
 

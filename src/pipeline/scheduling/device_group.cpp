@@ -121,10 +121,11 @@ void DeviceGroup::drop_claims() {
 std::shared_ptr<RegisteredMemory> DeviceGroup::register_memory(std::span<const ChannelMemory> channels,
                                                                std::size_t pixels) {
     start_call();
-    const std::size_t bytes = channels.size() * pixels * sizeof(float);
+    const auto first = std::ranges::find_if(channels, &ChannelMemory::has_memory);
+    const auto count = static_cast<std::size_t>(std::ranges::count_if(channels, &ChannelMemory::has_memory));
+    const std::size_t bytes = count * pixels * sizeof(float);
     if (bytes == 0) return nullptr;
-    const std::shared_ptr<RegisteredMemory> registered(new RegisteredMemory(channels.front().pixels, bytes),
-                                                       DeleteInCall());
+    const std::shared_ptr<RegisteredMemory> registered(new RegisteredMemory(first->pixels, bytes), DeleteInCall());
     for (std::size_t i = 0; i < devices_.size(); ++i) {
         Device& device = *devices_[i];
         if (!pipelines_[i]->is_asynchronous() || bytes > std::min(device.available() / 2, device.max_buffer()))
@@ -149,7 +150,8 @@ void DeviceGroup::render(const PreparedFrame& prepared, const RenderTarget& targ
         }
     } if_thrown{pipelines_};
     const std::uint64_t row = std::max(1u, kernel::tiles_across(prepared.frame.screen)) * std::uint64_t{tile_rays};
-    share(prepared.rays, row, prepared.frame.every_partition, watch, counts,
+    const bool is_whole = prepared.frame.every_partition || prepared.edges;  // on one device
+    share(prepared.rays, row, is_whole, watch, counts,
           [&](Pipeline& pipeline, const TakeRays& take, const ReportDone& report_done, PipelineCounts& own) {
               pipeline.render(prepared, take, target, report_done, own);
           });

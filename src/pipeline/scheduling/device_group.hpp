@@ -42,6 +42,10 @@ public:
     /// Draws a frame, as Pipeline::render does. Also throws Error (interrupted), if `watch`, which may be null, ends
     /// the work.
     void render(const PreparedFrame& prepared, const RenderTarget& target, Watch* watch, PipelineCounts& counts);
+    /// Whether render() can draw the edges of such a frame: one device draws the whole picture.
+    bool draws_edges(const PreparedFrame& prepared) const {
+        return pipelines_.size() == 1 && pipelines_.front()->draws_edges(prepared);
+    }
     void trace_list(const kernel::Frame& frame, const RayList& rays, RowReceiver& receiver, Watch* watch,
                     PipelineCounts& counts);
 

@@ -24,8 +24,13 @@ struct FrameJob {
     const RenderTarget& target;
     const ReportDone& report_done;
     PipelineCounts& counts;
+    bool edges = false;  ///< PreparedFrame::edges
 
     FrameShape shape() const { return shape_of(frame, target.channels.size()); }
+    /// Whether the frame's edges can be drawn when the batch is drawn.
+    bool has_edges(const RayBatch& batch) const {
+        return edges && batch.tiles() == shape().tiles_across * shape().tiles_down;
+    }
     /// Reports that a batch is done.
     void report(const RayBatch& batch) const {
         ++counts.batches;

@@ -36,6 +36,22 @@ DeviceMemory Pipeline::memory() const {
             .max_buffer = device.max_buffer()};
 }
 
+/// The most rays of a frame's batch. A frame with edges is one batch if the memory suffices.
+std::uint64_t Pipeline::most_rays(const PreparedFrame& prepared, std::size_t channels) const {
+    const FrameShape shape = shape_of(prepared.frame, channels);
+    if (prepared.edges) return plan_memory(shape, memory(), 1, prepared.rays).batch_rays;
+    const std::uint32_t underway = asynchronous_ ? 2 : 1;
+    const std::uint64_t limit =
+        asynchronous_ ? most_rays_ : std::min(most_rays_, most_rays_on_processor(shape.every_partition));
+    return plan_memory(shape, memory(), underway, limit).batch_rays;
+}
+
+// The kernel that draws edges reads the frame's numbers in double.
+bool Pipeline::draws_edges(const PreparedFrame& prepared) const {
+    return asynchronous_ && !prepared.frame.every_partition && passes_.records().wide_bytes() == sizeof(double) &&
+           prepared.rays > 0 && most_rays(prepared, MOST_CHANNELS) >= prepared.rays;
+}
+
 void Pipeline::render(const PreparedFrame& prepared, const TakeRays& take, const RenderTarget& target,
                       const ReportDone& report_done, PipelineCounts& counts) {
     const kernel::Frame& frame = prepared.frame;
@@ -43,12 +59,9 @@ void Pipeline::render(const PreparedFrame& prepared, const TakeRays& take, const
     passes_.tables->set_ends(prepared.ends);
     prepare(frame.every_partition);
     const FrameShape shape = shape_of(frame, target.channels.size());
-    const std::uint32_t underway = asynchronous_ ? 2 : 1;
-    const std::uint64_t limit =
-        asynchronous_ ? most_rays_ : std::min(most_rays_, most_rays_on_processor(frame.every_partition));
-    const auto most = [&] { return plan_memory(shape, memory(), underway, limit).batch_rays; };
+    const auto most = [&] { return most_rays(prepared, target.channels.size()); };
     BatchSource source(take, most, std::uint64_t{shape.tiles_across} * tile_rays);
-    const FrameJob job{frame, source, target, report_done, counts};
+    const FrameJob job{frame, source, target, report_done, counts, prepared.edges};
     asynchronous_ ? asynchronous_->render(job) : synchronous_.render(job);
 }
 

@@ -43,6 +43,8 @@ public:
     /// target later, until finish(). Throws Error (out_of_memory, device_fault).
     void render(const PreparedFrame& prepared, const TakeRays& take, const RenderTarget& target,
                 const ReportDone& report_done, PipelineCounts& counts);
+    /// Whether render() can draw the edges of such a frame: the device has memory for the whole picture.
+    bool draws_edges(const PreparedFrame& prepared) const;
     /// Returns when the target has all pixels that were drawn. Throws if a copy failed.
     void finish();
     /// Returns when nothing more will be written into the target.
@@ -57,6 +59,7 @@ public:
 
 private:
     DeviceMemory memory() const;
+    std::uint64_t most_rays(const PreparedFrame& prepared, std::size_t channels) const;
     bool is_processor() const { return passes_.device.info().type == "cpu"; }
 
     DevicePasses passes_;

@@ -20,6 +20,7 @@
 #include "integration/scenes.hpp"
 #include "rays/frame.hpp"
 #include "reference/reference.hpp"
+#include "render/channel_table.hpp"
 #include "sanitized.hpp"
 #include "stress/build.hpp"
 
@@ -139,6 +140,12 @@ struct Lined {
         return alone.allocated();
     }
 
+    PreparedFrame prepared(int width, int height) const {
+        PreparedFrame frame = prepare_frame(compiled, {.width = width, .height = height, .every_partition = false});
+        frame.edges = true;
+        return frame;
+    }
+
     std::vector<RayPartitions> trace(const kernel::Frame& frame, const std::vector<Ray>& rays) {
         PipelineCounts counts;
         Partitions answer;
@@ -149,7 +156,7 @@ struct Lined {
     }
 
     /// Draws `width` x `height` pixels in ranges of `rays`. The same bits as the renderer's picture, unless `progress`
-    /// interrupts it.
+    /// interrupts it. With `edges`, the picture has edges if the counts say so.
     PipelineCounts draw(int width, int height, bool every_partition, std::uint64_t rays,
                         const Progress& progress = nullptr) {
         View view{.channels = channels};
@@ -157,17 +164,22 @@ struct Lined {
         view.width = width;
         view.height = height;
         view.every_partition = every_partition;
+        view.camera.perspective = perspective;
         Image image = renderer.render(view);
         const std::size_t size = std::size_t(width) * std::size_t(height);
         Channels pixels(size, std::vector<float>(image.channels.size(), -1));
+        PreparedFrame prepared = prepare_frame(compiled, view, renderer.statistics().tolerance);
+        prepared.edges = edges;
+        if (edges) prepared.frame.channels |= channel::distance | channel::normal | channel::ids;
         std::vector<ChannelMemory> planes;
-        for (std::size_t p = 0; p < pixels.size(); ++p) {
-            const float far = std::numeric_limits<float>::infinity(), opaque = image.names[p] == "A" ? 1 : 0;
-            planes.push_back({pixels[p].data(), image.names[p] == "Z" ? far : opaque});
+        for (std::size_t p = 0; const ChannelSource& source : channel_table) {
+            if (!(prepared.frame.channels & source.group)) continue;
+            const bool is_wanted = p < pixels.size() && image.names[p] == source.name;
+            planes.push_back({is_wanted ? pixels[p++].data() : nullptr,
+                              source.value(kernel::background_pixel(&prepared.frame), compiled.display[0])});
         }
         std::vector<std::uint8_t> drawn((width + TILE - 1) / TILE * ((height + TILE - 1) / TILE), 1);
         const RenderTarget target{.channels = planes, .covered = drawn};
-        const PreparedFrame prepared = prepare_frame(compiled, view, renderer.statistics().tolerance);
         PipelineCounts counts;
         std::uint64_t done = 0;
         const auto told = [&](std::uint64_t more) {
@@ -184,6 +196,10 @@ struct Lined {
             pipeline.abandon();
             throw;
         }
+        if (counts.has_edges) {
+            view.edges = true;
+            image = renderer.render(view);
+        }
         Image packed = image;
         packed.channels = pixels;
         test::require_same(packed, image);
@@ -196,7 +212,8 @@ struct Lined {
     }
 
     std::uint32_t channels = channel::all;
-    double azimuth = 35;
+    double azimuth = 35, perspective = 0;
+    bool edges = false;
     Settings settings = test::on_compiling_device();
     Renderer renderer;
     CompiledScene compiled;
@@ -388,6 +405,31 @@ TEST_CASE("asynchronous: rays that have no room") {
         Lined beside(scene, room, test::sanitized ? 1024 : 4096);
         CHECK(beside.draw(width, height, false, 1 << 20).segments > 0);
     }
+}
+
+TEST_CASE("asynchronous: edges of a picture whose surfaces stay on the device") {
+    Lined lined(stress::scene_of_parts(20));
+    lined.edges = true;
+    for (const std::uint32_t channels :
+         {channel::display, channel::color, channel::color | channel::display, channel::all | channel::display})
+        for (const double perspective : {0, 40}) {
+            lined.channels = channels;
+            lined.perspective = perspective;
+            CHECK(lined.pipeline.draws_edges(lined.prepared(203, 161)));
+            CHECK(lined.draw(203, 161, false, 1 << 20).has_edges);
+            CHECK_FALSE(lined.draw(203, 161, false, 100 * tile_rays).has_edges);
+        }
+    Lined poor(stress::scene_of_parts(20), 200'000);
+    CHECK_FALSE(poor.pipeline.draws_edges(poor.prepared(203, 161)));
+    poor.edges = true;
+    poor.channels = channel::display;
+    CHECK_FALSE(poor.draw(203, 161, false, 1 << 20).has_edges);
+    Scene shells;
+    add_shells(shells, {0, 0, 0}, 20, 0.1);
+    Lined overflows(shells);
+    overflows.edges = true;
+    overflows.channels = channel::display;
+    CHECK_FALSE(overflows.draw(203, 161, false, 1 << 20).has_edges);
 }
 
 TEST_CASE("asynchronous: few tiles with more to see than all others, whose rays come in parts") {
