@@ -52,8 +52,8 @@ struct View {
     int samples = 1;
     bool transparent = false;  ///< No background: red, green, blue and alpha are 0 where a ray hits nothing.
     /// Black lines where the region, the surface's direction or its depth changes from pixel to pixel. The lines are a
-    /// pixel wide, on the nearer side, and smooth with several samples. Pixels beyond the border of `part` have no
-    /// effect, and coarse steps have no lines.
+    /// pixel wide, on the nearer side, smooth with several samples, and not on what is one or two pixels across. Pixels
+    /// beyond the border of `part` have no effect, and coarse steps have no lines.
     bool edges = false;
     Lighting light = Lighting::model;  ///< Where light comes from.
 };

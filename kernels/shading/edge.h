@@ -1,5 +1,5 @@
 // Edge: where a picture's surface ends or bends. Of two neighbouring pixels with an edge between them, the nearer pixel
-// is black. All numbers are floats, as those of the picture are.
+// is black, unless it is thin. All numbers are floats, as those of the picture are.
 #ifndef CSGRT_SHADING_EDGE_H
 #define CSGRT_SHADING_EDGE_H
 
@@ -68,8 +68,8 @@ FN edge_pixel edge_pixel_at(edge_camera c, float column, float line, edge_pixel 
     return p;
 }
 
-// Which of two neighbours is black, because there is an edge between them: 1 the first, 2 the second, 0 none. `a_side`
-// and `b_side`: the products of their normals with the way from the first to the second.
+// Which of two neighbours may be black, because there is an edge between them: 1 the first, 2 the second, 0 none.
+// `a_side` and `b_side`: the products of their normals with the way from the first to the second.
 FN u32 edge_between(edge_pixel a, float a_side, edge_pixel b, float b_side, float slack) {
     const float deeper = b.s - a.s;
     const float off_a = edge_abs(deeper * a.along + b.m * a_side), off_b = edge_abs(deeper * b.along + a.m * b_side);
@@ -80,6 +80,13 @@ FN u32 edge_between(edge_pixel a, float a_side, edge_pixel b, float b_side, floa
     const u32 bends = a.nx * b.nx + a.ny * b.ny + a.nz * b.nz < EDGE_COSINE, jumps = allowed < off;
     const u32 is_edge = differs | (is_seen & (bends | jumps)), is_first = a.distance <= b.distance;
     return is_edge * (2u - is_first);
+}
+
+// Is a pixel thin in its line or column? Between the edges before and after it are at most two pixels: a part as narrow
+// as this would be black from side to side. `before`, `after`: the pixel's edges. `next_after`, `last_before`: the next
+// pixel's edge after it, and the last pixel's edge before it.
+FN u32 edge_is_thin(u32 before, u32 after, u32 next_after, u32 last_before) {
+    return (before && (after || next_after)) || (after && last_before);
 }
 
 #endif

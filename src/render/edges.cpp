@@ -18,7 +18,7 @@ public:
     explicit Row(std::size_t columns) : marks(columns) {
         for (std::vector<float>* values : {&s_, &m_, &along_, &right_, &down_}) values->resize(columns);
     }
-    std::vector<std::uint32_t> marks;  ///< 1: the pixel is an edge
+    std::vector<std::uint32_t> marks;  ///< the pixels' edges, of the bits below
 
     std::size_t columns() const { return marks.size(); }
 
@@ -65,17 +65,20 @@ private:
     const std::uint32_t* region_ = nullptr;
 };
 
-/// Marks the pixels that the edges between a[i] and b[i + shift] make black. `side`: the member with the normal's
-/// product with the way from a's pixel to b's.
-template <float edge_pixel::*side>
+/// A pixel's edges to its neighbours.
+constexpr std::uint32_t to_left = 1, to_right = 2, to_above = 4, to_below = 8;
+
+/// Marks the edges between a[i] and b[i + shift]. `side`: the member with the normal's product with the way from a's
+/// pixel to b's. `bit_a` and `bit_b`: their bits in the marks.
+template <float edge_pixel::*side, std::uint32_t bit_a, std::uint32_t bit_b>
 void mark(Row& a, Row& b, std::size_t shift, float slack) {
     std::uint32_t *const of_a = a.marks.data(), *const of_b = b.marks.data() + shift;
     const std::size_t count = a.columns() - shift;
     for (std::size_t i = 0; i < count; ++i) {
         const edge_pixel one = a[i], other = b[i + shift];
         const std::uint32_t black = kernel::edge_between(one, one.*side, other, other.*side, slack);
-        of_a[i] |= black & 1u;
-        of_b[i] |= black >> 1;
+        of_a[i] |= (black & 1u) * bit_a;
+        of_b[i] |= (black >> 1) * bit_b;
     }
 }
 
@@ -94,24 +97,38 @@ void draw_edges(const PreparedFrame& prepared, const Image& surfaces, Image& pic
         if (name == "R" || name == "G" || name == "B") colors.push_back(picture.channels[c]);
         if (name == "RGBA8") display = picture.channels.ids(c);
     }
+    // A border of pixels without edges is around the marks.
+    const std::size_t pitch = columns + 2;
+    std::vector<std::uint8_t> marks(pitch * (lines + 2));
+    const auto marks_of = [&](std::size_t line) { return marks.data() + (line + 1) * pitch + 1; };
     for_chunks(lines, 32, 0, [&](std::size_t first, std::size_t end, std::size_t) {
         Row above(columns), row(columns);
-        const auto blacken = [&](const Row& of, std::size_t line) {
-            for (std::size_t i = 0; i < columns; ++i) {
-                if (!of.marks[i]) continue;
-                for (const std::span<float> channel : colors) channel[index(line) + i] = 0;
-                if (!display.empty()) display[index(line) + i] = EDGE_WORD;
-            }
+        const auto keep = [&](const Row& of, std::size_t line) {
+            std::ranges::transform(of.marks, marks_of(line), [](std::uint32_t m) { return std::uint8_t(m); });
         };
         const std::size_t begin = first ? first - 1 : 0, stop = std::min(end + 1, lines);
         for (std::size_t line = begin; line < stop; ++line) {
             row.read(surfaces, camera, line, index(line));
-            mark<&edge_pixel::right>(row, row, 1, camera.slack);
-            if (line > begin) mark<&edge_pixel::down>(above, row, 0, camera.slack);
-            if (line > first) blacken(above, line - 1);
+            mark<&edge_pixel::right, to_right, to_left>(row, row, 1, camera.slack);
+            if (line > begin) mark<&edge_pixel::down, to_below, to_above>(above, row, 0, camera.slack);
+            if (line > first) keep(above, line - 1);
             std::swap(above, row);
         }
-        if (stop == end) blacken(above, end - 1);
+        if (stop == end) keep(above, end - 1);
+    });
+    for_chunks(lines, 32, 0, [&](std::size_t line, std::size_t end, std::size_t) {
+        for (; line < end; ++line) {
+            const std::uint8_t* own = marks_of(line);
+            for (std::size_t i = 0; i < columns; ++i, ++own) {
+                const std::uint32_t m = *own;
+                if (!m) continue;
+                if (kernel::edge_is_thin(m & to_left, m & to_right, own[1] & to_right, own[-1] & to_left) ||
+                    kernel::edge_is_thin(m & to_above, m & to_below, own[pitch] & to_below, *(own - pitch) & to_above))
+                    continue;
+                for (const std::span<float> channel : colors) channel[index(line) + i] = 0;
+                if (!display.empty()) display[index(line) + i] = EDGE_WORD;
+            }
+        }
     });
 }
 

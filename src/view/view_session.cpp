@@ -118,11 +118,11 @@ std::string bytes_of(const Value* values, std::size_t count) {
     return {reinterpret_cast<const char*>(values), count * sizeof(Value)};
 }
 
-/// A part with the pixels around it: edges on its border need them.
+/// A part with two pixels around it: edges on its border need them.
 PixelRectangle with_border(const PixelRectangle& part, const View& view) {
-    const int left = std::max(part.left - 1, 0), top = std::max(part.top - 1, 0);
-    return {left, top, std::min(part.left + part.width + 1, view.width) - left,
-            std::min(part.top + part.height + 1, view.height) - top};
+    const int left = std::max(part.left - 2, 0), top = std::max(part.top - 2, 0);
+    return {left, top, std::min(part.left + part.width + 2, view.width) - left,
+            std::min(part.top + part.height + 2, view.height) - top};
 }
 
 /// Copies a part of a picture of `view.part` to its place in the whole, whose memory is made unless it has the

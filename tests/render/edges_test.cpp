@@ -202,6 +202,33 @@ TEST_CASE("edges: the same pixels on every device, in every form of the picture,
     }
 }
 
+TEST_CASE("edges leave parts of one and two pixels their colour") {
+    View view{.width = 100, .height = 100, .every_partition = false, .edges = true};
+    view.camera.azimuth = view.camera.elevation = 0;
+    view.camera.center = Vec3{};
+    view.camera.view_size = 100;
+    for (const bool is_lying : {false, true}) {
+        Scene scene;
+        for (int width = 1; width <= 4; ++width) {
+            Arb bar = box(1, width / 2.0, 30);
+            for (Vec3& corner : bar.vertices) {
+                corner.y += 10 * width + width / 2.0;
+                if (is_lying) std::swap(corner.y, corner.z);
+            }
+            scene.top.push_back("bar" + std::to_string(width));
+            scene.objects.push_back(Solid{scene.top.back(), bar, {}});
+        }
+        const Image image = Renderer(scene, {}, test::on_native_device()).render(view);
+        std::string middle = ".";
+        for (std::size_t i = 0; i < 100; ++i) {
+            const std::size_t pixel = is_lying ? 100 * (99 - i) + 50 : 100 * 50 + i;
+            const char shown = image.ids("region")[pixel] == 0 ? '.' : is_black(image, pixel) ? '#' : 'o';
+            if (shown != '.' || middle.back() != '.') middle += shown;
+        }
+        CHECK(middle == ".o.oo.#o#.#oo#.");
+    }
+}
+
 TEST_CASE("edges where rays need more memory than a kernel of first hits has, and where memory is short") {
     const Scene scene = test::nested_balls(100, {Operator::intersection}, test::Form::list);
     View view = view_with_edges();

@@ -222,8 +222,23 @@ TEST_CASE("view: the command draws the page's picture", "[view][promise:page]") 
     CHECK(page.frame(request).pixels == std::string(pixels.begin(), pixels.end()));
 }
 
+/// Slanting bars, of which a picture of 403x299 pixels shows one or two pixels across.
+Model thin_bars() {
+    Scene scene;
+    for (int i = 0; i < 40; ++i) {
+        Arb bar;
+        for (std::size_t k = 0; k < 8; ++k) {
+            const double y = k / 2 % 2 ? 100 : -100, side = k % 4 == 1 || k % 4 == 2 ? 2 : -2;
+            bar.vertices[k] = {k < 4 ? -1.0 : 1.0, y, 10.0 * i + 0.2 * y + side};
+        }
+        scene.top.push_back("bar" + std::to_string(i));
+        scene.objects.push_back(Solid{scene.top.back(), bar, {}});
+    }
+    return Model(scene);
+}
+
 TEST_CASE("view: a slice and an EXR are those of Model and Renderer", "[view]") {
-    const Model model = operators();
+    const Model model = GENERATE(0, 1) ? operators() : thin_bars();
     const PageClient page(model, {.write_exr = write_exr});
     json request = sized(page.ask("model")["view"]);
     request.update({{"center", {0, 0, 10}}, {"right", {100, 0, 0}}, {"up", {0, 100, 0}}});
