@@ -31,6 +31,13 @@ def bodies():
               "ring": {"type": "tor", "center": [0, 0, 0], "axis": [1, 0, 0], "radius": 8, "tube": 2.1},
               "block": {"type": "box", "low": [-4, -5, -6], "high": [4, 5, 6]},
               "pill": {"type": "part", "base": [0, 0, -3], "height": [0, 0, 6], "radius": 4, "top_radius": 3},
+              "bowl": {"type": "epa", "base": [0, 0, -5], "height": [0, 0, 10], "a": [1, 0, 0], "r1": 6, "r2": 6},
+              "horn": {"type": "ehy", "base": [0, 0, -5], "height": [0, 0, 10], "a": [1, 0, 0], "r1": 6, "r2": 5,
+                       "c": 2},
+              "waist": {"type": "hyp", "base": [0, 0, -6], "height": [0, 0, 12], "a": [5, 0, 0], "b": 5, "neck": 0.6},
+              "nut": {"type": "superell", "center": [0, 0, 0], "a": [5, 0, 0], "b": [0, 6, 0], "c": [0, 0, 7],
+                      "n": 0.5, "e": 0.5},
+              "oval": {"type": "eto", "center": [0, 0, 0], "axis": [1, 0, 0], "radius": 7, "c": [3, 0, 0], "d": 2},
               "plate": {"type": "box", "low": [-3, -5, -5], "high": [3, 5, 5]},
               "behind": {"type": "box", "low": [-3, -5, -5], "high": [-0.7, 5, 5]},
               "tilted": {"type": "box", "low": [-3, -5, -5], "high": [3, 5, 5]}}
@@ -40,6 +47,6 @@ def bodies():
     legs = [{"object": name + ".r", "translate": [0, 20 * i, 0], "rotate": turns[name]}
             for i, name in enumerate(solids)]
     return json.dumps({
-        "csgrt": 1, "camera": {"azimuth": 0, "elevation": 0, "center": [0, 90, 0], "size": 210}, "solids": solids,
+        "csgrt": 1, "camera": {"azimuth": 0, "elevation": 0, "center": [0, 140, 0], "size": 310}, "solids": solids,
         "combinations": {**{name + ".r": {"tree": name, "region": True, "id": i} for i, name in enumerate(solids)},
                          "all": {"tree": {"union": legs}}}})

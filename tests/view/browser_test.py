@@ -180,13 +180,19 @@ class Browser(unittest.TestCase):
                      "thickness along the normal": 4.2},
             "block": {"edge 1": 10, "edge 2": 12, "edge 3": 8, "thickness along the normal": 8},
             "pill": {"diameter at the base": 8, "diameter at the top": 6, "length of the axis": 6},
+            "bowl": {"diameter at the base": 12, "height": 10},
+            "horn": {"diameter 1 at the base": 12, "diameter 2 at the base": 10, "height": 10},
+            "waist": {"diameter at the ends": 10, "diameter at the waist": 6, "height": 12},
+            "nut": {"diameter 1": 10, "diameter 2": 12, "diameter 3": 14},
+            "oval": {"diameter of the ring's middle": 14, "diameter 1 of the tube": 6, "diameter 2 of the tube": 4,
+                     "diameter": 18, "height": 6},
             "plate": {"edge x": 6, "edge y": 10, "edge z": 10, "thickness along the normal": 6,
                       "thickness along the ray": 6},
             "behind": {"thickness along the normal": 2.3, "distance from the parallel face before": 3.7},
             "tilted": {"thickness along the normal": 6, "angle to the face before": 30}}
         with self.page_of(self.write("bodies.json", bodies())) as page:
             for i, (name, sizes) in enumerate(wanted.items()):
-                page.click(*page.screen([5, 20 * i, 7 if name == "ring" else 1]))
+                page.click(*page.screen([5, 20 * i, 7 if name in ("ring", "oval") else 1]))
                 self.assertEqual(page.text("selected-path"), f"/all/{name}.r")
                 found = {one["what"]: one["value"] for one in page.js("return measured()")}
                 for what, value in sizes.items():
