@@ -1,5 +1,7 @@
-// Edge: where a picture's surface ends or bends. Of two neighbouring pixels with an edge between them, the nearer pixel
-// is black, unless it is thin. All numbers are floats, as those of the picture are.
+// Edge: where a picture's surface ends or bends. Two neighbours in a line or a column have an edge between them if
+// their regions differ, if their normals are more than 30 degrees apart, or if each lies two pixels' width or more off
+// the other's tangent plane. The nearer of the two pixels is black, unless it is thin. All numbers are floats, as those
+// of the picture are.
 #ifndef CSGRT_SHADING_EDGE_H
 #define CSGRT_SHADING_EDGE_H
 
