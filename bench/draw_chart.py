@@ -12,21 +12,15 @@ Needs matplotlib, and plotly for the page (Debian, Ubuntu: python3-matplotlib, p
 import argparse
 import html
 import json
-import math
 import os
-import re
 import sys
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, os.path.join(HERE, "chart"))
+from drawing import draw_floor, draw_front, draw_names, load, look, save, write, write_page  # noqa: E402
 from pareto import beaten_at, mark_all  # noqa: E402
 
-try:
-    import matplotlib
-    matplotlib.use("Agg")
-    from matplotlib import pyplot, ticker
-except ImportError:
-    sys.exit("draw_chart.py: matplotlib is not there (Debian, Ubuntu: apt-get install python3-matplotlib)")
+pyplot, ticker = load()
 
 ADVICE = """<ul>
 <li><b>To measure, cut or check anything: the default.</b> Double precision, bracketed quartics; ends on one surface
@@ -82,17 +76,6 @@ def join(data, outside):
     data["methods"] += [m for m in outside["methods"] if m["name"] not in known]
 
 
-def save(data, path):
-    """As csgrt_chart writes it: an element of a list a line."""
-    def text(value):
-        lines = isinstance(value, list) and value
-        return "[\n" + ",\n".join(map(text, value)) + "]" if lines and isinstance(value[0], dict) else \
-            json.dumps(value, separators=(",", ":"), ensure_ascii=False)
-    with open(path + ".part", "w", encoding="utf-8") as file:
-        file.write("{" + ",\n".join(f"{json.dumps(key)}: {text(value)}" for key, value in data.items()) + "}\n")
-    os.replace(path + ".part", path)
-
-
 def scatter(axes, measured):
     """Time against wrong rays: a point a variant, a curve where a method has a knob, and the front."""
     drawn = {n: t for n, t in measured.totals.items() if t.get("of_default")}
@@ -103,32 +86,26 @@ def scatter(axes, measured):
 
     def height(total):
         return max(total["wrong_ppm"], floor)
-    colors = matplotlib.colormaps["tab20"].colors
     # Of all modes: a method looks the same in all of them, and has one line of the legend.
     methods = list(dict.fromkeys(t["method"] for t in measured.data["totals"]))
     for index, method in enumerate(methods):
         of = sorted((t for t in drawn.values() if t["method"] == method), key=lambda t: t.get("knob_value", 0))
         if not of:
             continue
-        color = colors[(2 * index) % 20 + (2 * index) // 20 % 2]
+        style = look(index, method == "default")
         xs, ys = [t["of_default"] for t in of], [height(t) for t in of]
         bars = [[max(0, y - t["wrong_ppm_interval"][0]) * 0.99 if t["wrong"] else 0 for t, y in zip(of, ys)],
                 [max(0, t["wrong_ppm_interval"][1] - y) for t, y in zip(of, ys)]]
         whole = all(t["variant"] in measured.whole for t in of)
-        axes.errorbar(xs, ys, yerr=bars, label=method + ("" if whole else " (part of the rays)"), color=color,
-                      marker="*" if method == "default" else "os^Dvp"[index % 6],
-                      markersize=13 if method == "default" else 5, markerfacecolor=color if whole else "white",
-                      linestyle=":" if len(of) > 1 else "", linewidth=1, elinewidth=0.6, zorder=3)
-    steps = sorted((drawn[n]["of_default"], height(drawn[n])) for n in measured.front)
-    axes.step([x for x, _ in steps], [y for _, y in steps], where="post", color="black", linestyle="--", linewidth=1.2,
-              zorder=2, label="front")
+        axes.errorbar(xs, ys, yerr=bars, label=method + ("" if whole else " (part of the rays)"), **style,
+                      markerfacecolor=style["color"] if whole else "white", linestyle=":" if len(of) > 1 else "",
+                      linewidth=1, elinewidth=0.6, zorder=3)
+    draw_front(axes, [(drawn[n]["of_default"], height(drawn[n])) for n in measured.front])
     times = [t["of_default"] for t in drawn.values()]
     wide = max(times) > 3 * min(times)
     axes.set_xscale("log")
     axes.set_yscale("log")
-    axes.axhline(floor, color="0.85", linewidth=0.8, zorder=0)
-    axes.text(0.99, floor, "none wrong", transform=axes.get_yaxis_transform(), ha="right", va="bottom", fontsize=7,
-              color="0.4")
+    draw_floor(axes, floor, "none wrong")
     axes.xaxis.set_major_locator(
         ticker.LogLocator(subs=(1, 1.5, 2, 3, 5, 7) if wide else (1, 1.1, 1.2, 1.5, 6, 7, 8, 9)))
     axes.xaxis.set_major_formatter(ticker.FuncFormatter(lambda v, _: f"{v:g}"))
@@ -143,23 +120,14 @@ def draw(data, modes, name, folder):
     figure = pyplot.figure(figsize=(11, 6.2), layout="constrained")
     grid = figure.add_gridspec(2, len(modes), height_ratios=[1, 0.22])
     panels = [figure.add_subplot(grid[0, i]) for i in range(len(modes))]
-    names = figure.add_subplot(grid[1, :])
-    names.axis("off")
     for axes, mode in zip(panels, modes):
         scatter(axes, Measured(data, mode))
-    handles = {}
-    for axes in panels:
-        handles.update(zip(*reversed(axes.get_legend_handles_labels())))
-    names.legend(handles.values(), handles.keys(), loc="center", ncol=6, fontsize=7.5, frameon=False)
+    draw_names(figure.add_subplot(grid[1, :]), panels, 6)
     decided = max((t["decided"] for t in data["totals"] if t.get("decided")), default=0)
     figure.suptitle(f"csgrt {data['csgrt']} on {data['device']}: up to {decided:,} decided rays a method; time: "
                     f"geometric mean over {len(data['timed_workloads'])} workloads, {data['size']} x {data['size']}",
                     fontsize=9)
-    path = os.path.join(folder, name + ".png")
-    # Without a version the same figures give the same file.
-    figure.savefig(path + ".part", format="png", dpi=100, metadata={"Software": None})
-    os.replace(path + ".part", path)
-    print(path)
+    write(figure, os.path.join(folder, name + ".png"))
     pyplot.close(figure)
 
 
@@ -186,23 +154,8 @@ def facts(data, modes):
 
 
 def page(measured, modes, folder):
-    try:
-        from plotly.offline import get_plotlyjs
-    except ImportError:
-        sys.exit("draw_chart.py: the pictures are drawn, the page is not: plotly is not there (Debian, Ubuntu: apt-get "
-                 "install python3-plotly)")
-    parts = {
-        "ADVICE": ADVICE + "".join(facts(data, modes) for data in measured), "HOW": HOW,
-        "PLOTLY": get_plotlyjs().replace("</script", "<\\/script"),
-        "DATA": json.dumps(measured, separators=(",", ":")).replace("</", "<\\/"),
-    }
-    with open(os.path.join(HERE, "chart", "page.html"), encoding="utf-8") as file:
-        text = re.sub(r"\b(" + "|".join(parts) + r")\b", lambda found: parts[found[0]], file.read())
-    path = os.path.join(folder, "index.html")
-    with open(path + ".part", "w", encoding="utf-8") as file:
-        file.write(text)
-    os.replace(path + ".part", path)
-    print(path)
+    texts = {"ADVICE": ADVICE + "".join(facts(data, modes) for data in measured), "HOW": HOW}
+    write_page(os.path.join(HERE, "chart", "page.html"), measured, texts, folder)
 
 
 def read(path):
@@ -222,7 +175,6 @@ def main():
                            help="what csgrt_judge_pov wrote; may be repeated")
     arguments.add_argument("-o", "--output", default=".", help="folder for the pictures and the page")
     options = arguments.parse_args()
-    matplotlib.rcParams.update({"font.size": 8.5})
     os.makedirs(options.output, exist_ok=True)
     measured = []
     outside = [read(path)[0] for path in options.outside]
