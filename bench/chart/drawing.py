@@ -45,10 +45,11 @@ def draw_front(axes, points):
               linewidth=1.2, zorder=2, label="front")
 
 
-def draw_floor(axes, floor, text):
-    """Where errors stand that are 0."""
+def draw_floor(axes, floor, text, side="right"):
+    """A line below which errors say nothing, such as that of errors that are 0."""
     axes.axhline(floor, color="0.85", linewidth=0.8, zorder=0)
-    axes.text(0.99, floor, text, transform=axes.get_yaxis_transform(), ha="right", va="bottom", fontsize=7, color="0.4")
+    axes.text(0.99 if side == "right" else 0.01, floor, text, transform=axes.get_yaxis_transform(), ha=side,
+              va="bottom", fontsize=7, color="0.4")
 
 
 def draw_names(axes, panels, columns):

@@ -1,6 +1,7 @@
-"""The chart's page (bench/draw_chart.py, bench/chart/page.html) in a browser: what it shows for each choice.
+"""The charts' pages (bench/draw_chart.py, bench/chart/page.html, bench/analysis) in a browser: what they show for each
+choice.
 
-    page_test.py FOLDER     writes the page there from hand-made figures, and opens it in a headless chromium
+    page_test.py FOLDER     writes the pages there from hand-made figures, and opens them in a headless chromium
 """
 import html
 import json
@@ -66,6 +67,18 @@ def measured_outside():
                          "exact": False, "on_device": False}]}
 
 
+def opened(folder, **choice):
+    """The page's text after its scripts have run, and what the body's data say."""
+    fragment = "&".join(f"{k}={v.replace(' ', '%20').replace('<', '%3C')}" for k, v in choice.items())
+    command = [BROWSER, "--headless", "--no-sandbox", "--disable-gpu", "--virtual-time-budget=5000",
+               f"--user-data-dir={os.path.join(folder, 'profile')}", "--dump-dom",
+               f"file://{os.path.abspath(folder)}/index.html#{fragment}"]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=120, check=True)
+    body = re.search(r"<body[^>]*>", done.stdout)[0]
+    said = {k: html.unescape(v) for k, v in re.findall(r'data-(\w+)="([^"]*)"', body)}
+    return re.sub(r"(?s)<script.*?</script>", "", done.stdout), said
+
+
 class Page(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
@@ -82,15 +95,7 @@ class Page(unittest.TestCase):
         subprocess.run([sys.executable, draw, "-o", FOLDER, "--outside", *names], check=True)
 
     def opened(self, **choice):
-        """The page's text after its scripts have run, and what the body's data say."""
-        fragment = "&".join(f"{k}={v.replace(' ', '%20').replace('<', '%3C')}" for k, v in choice.items())
-        command = [BROWSER, "--headless", "--no-sandbox", "--disable-gpu", "--virtual-time-budget=5000",
-                   f"--user-data-dir={os.path.join(FOLDER, 'profile')}", "--dump-dom",
-                   f"file://{os.path.abspath(FOLDER)}/index.html#{fragment}"]
-        done = subprocess.run(command, capture_output=True, text=True, timeout=120, check=True)
-        body = re.search(r"<body[^>]*>", done.stdout)[0]
-        said = {k: html.unescape(v) for k, v in re.findall(r'data-(\w+)="([^"]*)"', body)}
-        return re.sub(r"(?s)<script.*?</script>", "", done.stdout), said
+        return opened(FOLDER, **choice)
 
     def test_all_rays_have_a_point_a_setting_and_the_front_leaves_out_what_answers_half(self):
         dom, said = self.opened(device="Device One", mode="every partition", family="all")
@@ -128,6 +133,26 @@ class Page(unittest.TestCase):
     def test_what_was_expected_stands_beside_what_was_measured(self):
         dom, _ = self.opened(device="Device One", mode="first hits", family="all")
         self.assertRegex(dom, r"thin: as was foretold</td><td[^>]*>wrong, ppm: thin 5,?000</td>")
+
+
+class AnalysisPage(unittest.TestCase):
+    def test_a_case_has_its_points_its_front_and_what_is_refused(self):
+        folder = os.path.join(FOLDER, "analysis")
+        os.makedirs(folder, exist_ok=True)
+        results = [{"case": "ball", "method": method, "figure": "volume", "budget": budget, "seeds": 8,
+                    "seconds": seconds, "error": error}
+                   for method, budget, seconds, error in (("csgrt", 10, 1, 0.1), ("csgrt", 100, 9, 0.001),
+                                                          ("slow <one>", 10, 2, 0.2))]
+        with open(os.path.join(folder, "measured.json"), "w", encoding="utf-8") as file:
+            json.dump({"versions": {}, "seeds": 8, "results": results, "cases": [{"case": "ball", "model": False}],
+                       "methods": [{"method": m, "start": 0} for m in ("csgrt", "slow <one>")],
+                       "refusals": [{"case": "ball", "method": "third", "why": "it holds no </script>"}]}, file)
+        draw = os.path.join(ROOT, "bench", "analysis", "draw.py")
+        subprocess.run([sys.executable, draw, "-o", folder, file.name], check=True)
+        dom, said = opened(folder)
+        self.assertEqual(said, {"points": "3", "front": "csgrt 10; csgrt 100"})
+        self.assertEqual(len(re.findall(r'<path class="point"', dom)), 3)
+        self.assertIn("it holds no &lt;/script&gt;", dom)
 
 
 if __name__ == "__main__":
