@@ -25,21 +25,10 @@
 
 namespace csgrt {
 
-/// A row of a table of densities: regions of one material, or at one path, have the density. If two rows concern one
-/// region, the later one counts.
-struct Density {
-    int material_id = 0;  ///< BRL-CAD's number of the material, if there is no path
-    /// A RegionInfo::path, or its beginning up to a '/' for all regions below; "/": all. Measurer throws Error (usage)
-    /// if it fits no region.
-    std::string path = {};
-    double density = 0;     ///< g/cm^3
-    std::string name = {};  ///< of the material
-};
-
 /// Reads a table of densities as gqa and rtweight of BRL-CAD do: on each line the number of a material, a density in
 /// g/cm^3 and a name; # begins a comment. In place of the number may stand the path of a region, or its beginning. Of a
-/// BRL-CAD database the table is the object _DENSITIES, if it has one; of a .json it is empty. Wrong lines are left out
-/// and appended to `warnings`, or, if this is null, throw Error (scene). Throws Error (file). Any thread.
+/// scene file it returns Scene::densities. Wrong lines are left out and appended to `warnings`, or, if this is null,
+/// throw Error (scene). Throws Error (file). Any thread.
 CSGRT_API std::vector<Density> load_densities(const std::string& path, std::vector<Warning>* warnings = nullptr);
 
 /// The errors that a measure shall reach, and its limits.

@@ -143,6 +143,17 @@ struct RegionColor {
     Vec3 color = {};  ///< red, green, blue; 0 to 1
 };
 
+/// A row of a table of densities: regions of one material, or at one path, have the density. If two rows concern one
+/// region, the later one counts.
+struct Density {
+    int material_id = 0;  ///< BRL-CAD's number of the material, if there is no path
+    /// A RegionInfo::path, or its beginning up to a '/' for all regions below; "/": all. Measurer throws Error (usage)
+    /// if it fits no region.
+    std::string path = {};
+    double density = 0;     ///< g/cm^3
+    std::string name = {};  ///< of the material
+};
+
 /// A model, its lights and a camera.
 struct Scene {
     std::string title = {};
@@ -164,6 +175,7 @@ struct Scene {
     std::vector<RegionColor> region_colors = {};
     std::vector<Look> looks = {};  ///< if two concern one region, the later one counts; looks of no region have no
                                    ///< effect
+    std::vector<Density> densities = {};  ///< BRL-CAD's object _DENSITIES, for Measurer
     /// True: an object that is missing, broken or of an unknown type is the empty set, with a warning. False: such a
     /// scene is refused. BRL-CAD's databases are lenient, as BRL-CAD's ray tracer is.
     bool lenient = false;

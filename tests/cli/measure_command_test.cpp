@@ -127,3 +127,13 @@ TEST_CASE("a measure that its time ends prints what it has", "[promise:measure]"
     CHECK(timed.status == 0);
     CHECK(contains(timed.out, "0 of 2 regions within 1e-07 %\n"));
 }
+
+TEST_CASE("a database's densities are kept by convert", "[promise:measure]") {
+    NEEDS_COMMAND();
+    const Folder folder;
+    const std::string scene = folder.write("blocks.asc", blocks);
+    REQUIRE(run({"convert", scene, folder / "blocks.json"}).status == 0);
+    const Result first = run({"measure", scene, "--json", "-"});
+    CHECK(json::parse(first.out)["parts"][0].contains("mass"));
+    CHECK(run({"measure", folder / "blocks.json", "--json", "-"}).out == first.out);
+}

@@ -16,12 +16,14 @@ public:
         add(scene.title, scene.units, scene.unit_length, scene.camera.azimuth, scene.camera.elevation,
             scene.camera.perspective, scene.camera.center, scene.camera.view_size, scene.camera.eye,
             scene.camera.look_at, scene.camera.up, scene.ambient, scene.background, scene.tolerance,
-            scene.lights.size(), scene.objects.size(), scene.top.size(), scene.region_colors.size());
+            scene.lights.size(), scene.objects.size(), scene.top.size(), scene.region_colors.size(),
+            scene.densities.size());
         for (const Light& light : scene.lights)
             add(light.position, light.color, light.intensity, light.infinite, light.angle, light.direction);
         for (const std::string& name : scene.top) add(name);
         add(scene.top_matrices);
         for (const RegionColor& range : scene.region_colors) add(range.low, range.high, range.color);
+        for (const Density& row : scene.densities) add(row.material_id, row.path, row.density, row.name);
         for (const Object& object : scene.objects) {
             add(object.index(), name_of(object));
             if (const auto* solid = std::get_if<Solid>(&object)) {

@@ -1,6 +1,5 @@
 // csgrt measure: volumes, masses, areas and moments of a scene's parts, with their errors.
 #include <algorithm>
-#include <filesystem>
 #include <utility>
 
 #include <sys/ioctl.h>
@@ -44,20 +43,14 @@ Status run(const MeasureArguments& arguments) {
     if (!arguments.densities.empty()) inputs.push_back({"--densities", arguments.densities});
     check_outputs(outputs, inputs);
     MeasureRequest request = arguments.request;
-    std::error_code ignored;
-    if (!arguments.densities.empty()) {
-        request.densities = load_densities(arguments.densities);
-    } else if (std::filesystem::is_regular_file(arguments.scene, ignored)) {  // else the scene alone can be read
-        std::vector<Warning> warnings;
-        request.densities = load_densities(arguments.scene, &warnings);
-        report(std::move(warnings), false);
-    }
+    if (!arguments.densities.empty()) request.densities = load_densities(arguments.densities);
     Measurement result;
     {
         Progress progress;
         progress.stage("loading");
         prepare_devices(arguments.settings);
         Scene scene = load(arguments.scene, arguments.load);
+        if (arguments.densities.empty()) request.densities = scene.densities;
         progress.stage("compiling");
         Settings settings = with_progress(arguments.settings, progress);
         Model model(std::move(scene), arguments.objects, settings);

@@ -6,6 +6,7 @@
 #include <iterator>
 #include <utility>
 
+#include "formats/brlcad/densities.hpp"
 #include "formats/brlcad/parts.hpp"
 
 namespace csgrt {
@@ -144,15 +145,14 @@ void BrlcadObjects::add_balls(const Entry& entry, const BrlcadPoints& points, bo
     objects.emplace_back(std::move(all));
 }
 
-std::vector<Object> BrlcadObjects::take(const std::string& model, const std::vector<std::string>& file_folders,
-                                        std::vector<Warning>& warnings) {
+void BrlcadObjects::take(Scene& scene, const std::string& model, const std::vector<std::string>& file_folders) {
     const auto find_part = [this](const std::string& name) -> const BrlcadItem* {
         const Entry* entry = find(name);
         return entry == nullptr ? nullptr : std::get_if<BrlcadItem>(&entry->object);
     };
     BrlcadParts parts(std::filesystem::path(model).parent_path(), file_folders, find_part);
     const std::vector<bool> used = used_entries();
-    std::vector<Object> objects;
+    std::vector<Object>& objects = scene.objects;
     NoiseRemover noise;
     for (std::size_t i = 0; i < entries_.size(); ++i) {
         Entry& entry = entries_[i];
@@ -171,7 +171,7 @@ std::vector<Object> BrlcadObjects::take(const std::string& model, const std::vec
             parts.complete(*shape, item.cells_in_object);
             objects.emplace_back(Solid{entry.name, std::move(*shape), entry.place});
         } else if (const auto* points = std::get_if<BrlcadPoints>(&item.content)) {
-            add_balls(entry, *points, used[i], objects, warnings);
+            add_balls(entry, *points, used[i], objects, scene.warnings);
         } else if (used[i] && findings_.is_lenient()) {
             const std::string type = type_of(item);
             objects.emplace_back(
@@ -183,10 +183,14 @@ std::vector<Object> BrlcadObjects::take(const std::string& model, const std::vec
             objects.emplace_back(std::move(empty));
         }
     }
-    noise.tell(warnings);
+    noise.tell(scene.warnings);
+    const BrlcadItem* const densities = find_part(densities_name);
+    const auto* numbers = densities ? std::get_if<BrlcadNumbers>(&densities->content) : nullptr;
+    if (numbers && (numbers->type == BrlcadNumbers::bytes || numbers->type == BrlcadNumbers::signed_bytes))
+        scene.densities = read_densities(TextSource(model + ": " + densities_name, numbers->data), densities_name,
+                                         findings_.is_lenient() ? &scene.warnings : nullptr);
     entries_.clear();
     index_.clear();
-    return objects;
 }
 
 }  // namespace csgrt

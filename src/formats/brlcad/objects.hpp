@@ -25,6 +25,7 @@ inline Scene brlcad_scene(bool lenient) {
 /// A named array of numbers (BRL-CAD's binunif), as bytes, highest byte first.
 struct BrlcadNumbers {
     static constexpr int bytes = 4, words = 5;  ///< types of unsigned numbers: 8 and 16 bits
+    static constexpr int signed_bytes = 12;
     int type = 0;
     std::string data;
 };
@@ -72,13 +73,13 @@ public:
     /// The combination with this name, or nullptr. Valid until the next `add`.
     Combination* find_combination(const std::string& name);
 
-    /// Takes all solids and combinations, in the order in which they were added. Solids are completed with other
-    /// objects and with files, whose names are relative to the folder of `model` and which must be below one of
-    /// `file_folders`. A solid whose parts are not available becomes Unsupported, with the reason. An object without
-    /// volume is left out; if a combination uses it, it becomes the empty set, or Unsupported in a lenient scene.
-    /// Points become the union of their balls. Faults that a lenient scene tolerates are added to `warnings`.
-    std::vector<Object> take(const std::string& model, const std::vector<std::string>& file_folders,
-                             std::vector<Warning>& warnings);
+    /// Takes all solids and combinations into a scene, in the order in which they were added, and its densities. Solids
+    /// are completed with other objects and with files, whose names are relative to the folder of `model` and which
+    /// must be below one of `file_folders`. A solid whose parts are not available becomes Unsupported, with the reason.
+    /// An object without volume is left out; if a combination uses it, it becomes the empty set, or Unsupported in a
+    /// lenient scene. Points become the union of their balls. Faults that a lenient scene tolerates are added to its
+    /// warnings.
+    void take(Scene& scene, const std::string& model, const std::vector<std::string>& file_folders);
 
 private:
     struct Entry {

@@ -75,6 +75,15 @@ inline constexpr auto of<RegionColor> = Form{
 };
 
 template <>
+inline constexpr auto of<Density> = Form{
+    plain("density", "Regions of the material, or at the path, have the density. The later of two counts."),
+    optional("material_id", &Density::material_id, integer, "If there is no path."),
+    optional("path", &Density::path, text, "As csgrt info shows it, or the beginning of such paths up to a '/'."),
+    required("density", &Density::density, number, not_negative(), "g/cm^3"),
+    optional("name", &Density::name, text, "Of the material."),
+};
+
+template <>
 inline constexpr auto of<Look> = Form{
     plain("look", "What the regions at a path have in place of what their combinations say."),
     required("path", &Look::path, name, "As csgrt info shows it, or the beginning of such paths up to a '/'."),
@@ -137,6 +146,7 @@ inline constexpr auto of<Scene> = Form{
     optional("order", nothing, Other{R"({"type": "array", "items": {"$ref": "#/$defs/name"}, "uniqueItems": true})"},
              "All objects in the order of the regions, if that is not the order of the file."),
     optional("region_colors", &Scene::region_colors, List{object<RegionColor>}),
+    optional("densities", &Scene::densities, List{object<Density>}, "What csgrt measure makes masses of."),
     optional("looks", nothing, List{object<Look>}, "Of two that concern one region the later counts."),
 };
 

@@ -1,5 +1,6 @@
 // Tables of densities, in files and in databases.
 #include <csgrt/measure.hpp>
+#include <csgrt/scene_io.hpp>
 
 #include "folder.hpp"
 #include "g/brlcad_g_writer.hpp"
@@ -67,7 +68,14 @@ TEST_CASE("a database's densities are its object _DENSITIES, in text and binary"
     CHECK(load_densities(folder.write("doubles.g", binary(3, table))).empty());
     CHECK(load_densities(folder.write("none.g", g_test::header)).empty());
     CHECK(load_densities(folder.write("none.asc", "title {}\n")).empty());
-    CHECK(load_densities(folder.write("none.json", "{}")).empty());
+    CHECK(load_densities(folder.write("none.json", R"({"csgrt": 1, "combinations": {"c": {"tree": null}}})")).empty());
+
+    // A scene has them, and its .json.
+    Scene scene = load_scene(folder.write("model.g", binary(4, table)));
+    check_table(scene.densities);
+    scene.objects.push_back(Combination{.name = "c"});
+    save_scene(scene, folder / "model.json");
+    check_table(load_densities(folder / "model.json"));
 
     const std::string broken = folder.write("broken.g", binary(4, "1 2 a\nb 3"));
     std::vector<Warning> warnings;
@@ -76,5 +84,7 @@ TEST_CASE("a database's densities are its object _DENSITIES, in text and binary"
     CHECK(warnings[0].object == "_DENSITIES");
     CHECK(test::says(warnings[0].reason, "'b' is neither"));
     CHECK(test::thrown_by([&] { load_densities(broken); }).status == Status::scene);
+    CHECK(load_scene(broken).warnings.size() == 1);
+    CHECK(test::thrown_by([&] { load_scene(broken, {.strict = true}); }).status == Status::scene);
     CHECK(test::thrown_by([&] { load_densities(folder / "none"); }).status == Status::file);
 }

@@ -76,6 +76,7 @@ Scene random_scene(unsigned seed) {
     if (n.coin()) scene.background = n.color();
     if (n.coin()) scene.tolerance = 0;
     if (n.coin()) scene.region_colors = {{-5, n.integer(), n.color()}};
+    if (n.coin()) scene.densities = {{n.integer(), {}, 7.85, "steel"}, {0, "/all/", n.color().x}};
     for (int i = 0; i < 12; ++i) {
         const std::string object = "object " + std::to_string(i);
         if (n.coin()) {

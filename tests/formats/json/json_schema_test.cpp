@@ -50,7 +50,7 @@ const json& sound_example(const std::string& form) {
         "model_units": {"name": "cubit", "millimetres": 457},
         "camera": {}, "light": {"position": [0, 0, 0]}, "emission": {}, "material": {},
         "look": {"path": "/c/s", "state": "hidden"},
-        "region_color": {"low": 0, "high": 1, "color": [0, 0, 0]},
+        "region_color": {"low": 0, "high": 1, "color": [0, 0, 0]}, "density": {"density": 7.85},
         "combination": {"tree": "s"},
         "leaf": {"object": "s"}, "placed": {"object": "s"}, "union": {"union": ["s"]},
         "intersection": {"intersection": ["s"]},
@@ -122,6 +122,8 @@ std::string scene_with(const std::string& form, const json& object) {
         scene["materials"]["m"] = {{"light", object}};
     else if (form == "region_color")
         scene["region_colors"] = json::array({object});
+    else if (form == "density")
+        scene["densities"] = json::array({object});
     else if (form == "look")
         scene["looks"] = json::array({object});
     else if (form == "combination")

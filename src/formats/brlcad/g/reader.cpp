@@ -47,7 +47,7 @@ public:
             read_objects(bytes.size());
         }
         findings_.throw_if_any();
-        scene_.objects = objects_.take(source_.name(), source_.file_folders, scene_.warnings);
+        objects_.take(scene_, source_.name(), source_.file_folders);
         warn_of_shaders(scene_);
         return std::move(scene_);
     }

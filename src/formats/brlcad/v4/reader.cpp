@@ -94,7 +94,7 @@ public:
             }
         }
         findings_.throw_if_any();
-        scene_.objects = objects_.take(source_.name(), source_.file_folders, scene_.warnings);
+        objects_.take(scene_, source_.name(), source_.file_folders);
         warn_of_shaders(scene_);
         return std::move(scene_);
     }

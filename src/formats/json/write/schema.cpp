@@ -201,7 +201,7 @@ std::string json_schema_text() {
     definitions["scene"]["anyOf"] = {{{"required", {"solids"}}}, {{"required", {"combinations"}}}};
     add_values(definitions);
     add_form<Scene>(definitions, form::model_units);
-    add_forms<Camera, Light, Emission, Finish, RegionColor, Look, Combination, Rotation>(definitions);
+    add_forms<Camera, Light, Emission, Finish, RegionColor, Density, Look, Combination, Rotation>(definitions);
     add_trees(definitions);
     add_forms<Plane, Metaball::Point, Pipe::Point, Sketch, Sketch::Line, Sketch::Arc, form::Circle, Sketch::Bezier,
               Sketch::Nurb>(definitions);
