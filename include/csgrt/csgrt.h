@@ -834,6 +834,9 @@ typedef struct csgrt_measure_request {
     int walls;
     /// Millimetres: regions with a thinner wall are counted. 0: none is.
     double wall_limit;
+    /// Cells along x, y and z of a grid over the box of what is measured, in each of which volumes are measured, too.
+    /// 0: no grid.
+    uint32_t grid[3];
 } csgrt_measure_request;
 
 /// A number, and half the width of its 95 % interval.
@@ -889,6 +892,21 @@ CSGRT_API csgrt_status csgrt_measurer_measure(csgrt_measurer* measurer, const cs
 /// A part of the last result: all together, then assemblies, materials, regions. Its name is valid until the next call
 /// of csgrt_measurer_measure().
 CSGRT_API csgrt_status csgrt_measurer_part(const csgrt_measurer* measurer, size_t index, csgrt_measured* part);
+/// csgrt::CellVolumes: `count` elements of each array; `cells` has three numbers for each.
+typedef struct csgrt_cell_volumes {
+    size_t count;
+    const int32_t *cells, *ids;
+    const double *volumes, *half_widths;  ///< mm^3
+} csgrt_cell_volumes;
+/// csgrt::MeasuredGrid: the volumes in the cells of csgrt_measure_request::grid.
+typedef struct csgrt_measured_grid {
+    size_t size;
+    uint32_t sides[3];  ///< numbers of cells along x, y and z; 0: there is no grid
+    csgrt_box box;      ///< millimetres
+    csgrt_cell_volumes regions, materials;
+} csgrt_measured_grid;
+/// The grid of the last result. Its arrays are valid until the next call of csgrt_measurer_measure().
+CSGRT_API csgrt_status csgrt_measurer_grid(const csgrt_measurer* measurer, csgrt_measured_grid* grid);
 /// Reads a table of densities (csgrt::load_densities()), which counts for requests without densities.
 CSGRT_API csgrt_status csgrt_measurer_load_densities(csgrt_measurer* measurer, const char* path);
 
@@ -919,6 +937,7 @@ CSGRT_API void csgrt_verification_init(csgrt_verification* verification);
 CSGRT_API void csgrt_measure_request_init(csgrt_measure_request* measure_request);
 CSGRT_API void csgrt_measured_init(csgrt_measured* measured);
 CSGRT_API void csgrt_measurement_init(csgrt_measurement* measurement);
+CSGRT_API void csgrt_measured_grid_init(csgrt_measured_grid* measured_grid);
 
 // clang-format off
 #define CSGRT_DIAGNOSTIC {sizeof(csgrt_diagnostic), "", "", "", "", "", 0, 0, -1, 1, 0}
@@ -947,12 +966,14 @@ CSGRT_API void csgrt_measurement_init(csgrt_measurement* measurement);
 #define CSGRT_IMAGE_INFO {sizeof(csgrt_image_info), 0, 0, 0, 0}
 #define CSGRT_PICK {sizeof(csgrt_pick), -1, -1, 0, {0, 0, 0}, {0, 0, 0}, {{0, 0, 0}, {0, 0, 0}}}
 #define CSGRT_VERIFICATION {sizeof(csgrt_verification), "", 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, {{0, 0, 0}, {0, 0, 0}}}
-#define CSGRT_MEASURE_REQUEST {sizeof(csgrt_measure_request), 0.01, 0, 0, 0, 1, NULL, 0, 0, 0}
+#define CSGRT_MEASURE_REQUEST {sizeof(csgrt_measure_request), 0.01, 0, 0, 0, 1, NULL, 0, 0, 0, {0, 0, 0}}
 #define CSGRT_MEASURED {sizeof(csgrt_measured), 0, "", -1, {0, 0}, {0, 0}, {0, 0}, {0, 0}, \
     {{0, 0}, {0, 0}, {0, 0}}, {{0, 0}, {0, 0}, {0, 0}, {0, 0}, {0, 0}, {0, 0}}, \
     {{0, 0}, {0, 0}, {0, 0}, {0, 0}, {0, 0}, {0, 0}}, {{0, 0, 0}, {0, 0, 0}}, 0, 0, 0, 0, 0, \
     0, 0, {0, 0, 0}, {0, 0, 0}, 0, {0}}
 #define CSGRT_MEASUREMENT {sizeof(csgrt_measurement), 0, 0, 0, 0, 0}
+#define CSGRT_MEASURED_GRID {sizeof(csgrt_measured_grid), {0, 0, 0}, {{0, 0, 0}, {0, 0, 0}}, \
+    {0, NULL, NULL, NULL, NULL}, {0, NULL, NULL, NULL, NULL}}
 // clang-format on
 
 #ifdef __cplusplus

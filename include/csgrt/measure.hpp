@@ -47,8 +47,13 @@ struct MeasureRequest {
     std::vector<Density> densities = {};  ///< Densities of the regions; if empty, there are no masses.
     bool walls = false;                   ///< The smallest wall of each region is searched.
     double wall_limit = 0;                ///< Millimetres: regions with a thinner wall are counted. 0: none is.
+    /// Cells along x, y and z of a grid over the box of what is measured, in each of which volumes are measured, too.
+    /// 0: no grid.
+    std::array<std::uint32_t, 3> grid = {};
 
     static constexpr std::uint64_t most_rays = 1'000'000'000'000;
+    static constexpr std::uint64_t most_cells = 1u << 24;         ///< of a grid
+    static constexpr std::uint64_t most_cell_volumes = 1u << 25;  ///< of all regions in a grid's cells
 };
 
 /// A number, and half the width of its 95 % interval.
@@ -96,9 +101,26 @@ struct Measured {
     double unmet_bound = 0;                 ///< mm³: what the unmet regions may have at most (95 %)
 };
 
+/// The volumes of several regions, or materials, in the cells of a grid: those that are not 0. The lists have the order
+/// of `ids`, then of z, y and x.
+struct CellVolumes {
+    std::vector<std::array<std::int32_t, 3>> cells = {};  ///< numbers of the cells along x, y and z, from 0
+    std::vector<std::int32_t> ids = {};  ///< of a region its index in Model::regions(), of a material BRL-CAD's number
+    std::vector<double> volumes = {};    ///< mm³, of what the regions own
+    std::vector<double> half_widths = {};  ///< mm³: of their 95 % intervals
+};
+
+/// The volumes in the cells of a grid, all of one size. Those of a region sum to its Measured::volume.
+struct MeasuredGrid {
+    std::array<std::uint32_t, 3> sides = {};  ///< numbers of cells along x, y and z; 0: there is no grid
+    Box box = {};                             ///< of the model, millimetres
+    CellVolumes regions = {}, materials = {};
+};
+
 /// The figures that a measure has found.
 struct Measurement {
     std::vector<Measured> parts = {};  ///< all together, assemblies, materials, regions, in the model's order
+    MeasuredGrid grid = {};
     bool has_densities = false;
     bool reached = false;    ///< whether each region has reached the request's error, or all rays were traced
     std::uint64_t rays = 0;  ///< traced in all

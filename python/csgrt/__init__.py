@@ -17,8 +17,8 @@ from ._page import Page
 from ._scene import Scene, Subtree, load, parse
 from ._solids import Part, box, cone, cylinder, rotate, scale, solid, sphere, torus, translate
 from ._values import (
-    Child, Device, DeviceName, Diagnostic, Error, Estimate, Hits, Material, Measured, Measurement, Partitions, Pick,
-    Place, Region, Regions, SceneWarning, Solid, Verification, Wall, Warning,
+    CellVolumes, Child, Device, DeviceName, Diagnostic, Error, Estimate, Hits, Material, Measured, MeasuredGrid,
+    Measurement, Partitions, Pick, Place, Region, Regions, SceneWarning, Solid, Verification, Wall, Warning,
 )
 
 
@@ -28,9 +28,9 @@ def devices() -> list[Device]:
 
 
 __all__ = [
-    "Camera", "Child", "Device", "DeviceName", "Diagnostic", "Error", "Estimate", "Hits", "Image", "Material",
-    "MeasureRequest", "Measured", "Measurement", "Page", "Part", "Partitions", "Pick", "Place", "Region", "Regions",
-    "Scene", "SceneWarning", "Settings", "Solid", "Subtree", "Verification", "View", "Wall", "Warning", "box", "cone",
-    "cylinder", "devices", "load", "parse", "rays_parallel", "rays_pinhole", "rotate", "scale", "solid", "sphere",
-    "torus", "translate",
+    "Camera", "CellVolumes", "Child", "Device", "DeviceName", "Diagnostic", "Error", "Estimate", "Hits", "Image",
+    "Material", "MeasureRequest", "Measured", "MeasuredGrid", "Measurement", "Page", "Part", "Partitions", "Pick",
+    "Place", "Region", "Regions", "Scene", "SceneWarning", "Settings", "Solid", "Subtree", "Verification", "View",
+    "Wall", "Warning", "box", "cone", "cylinder", "devices", "load", "parse", "rays_parallel", "rays_pinhole", "rotate",
+    "scale", "solid", "sphere", "torus", "translate",
 ]

@@ -353,15 +353,43 @@ class Measured(NamedTuple):
 _describe(Measured)
 
 
+class CellVolumes(NamedTuple):
+    """The volumes of regions, or materials, in the n cells that have some, in the order of ids, z, y, x.
+
+    cells: (n, 3) int32, numbers along x, y and z from 0. ids: (n,) int32, ids of regions or numbers of materials.
+    volumes, half_widths of their 95 % intervals: (n,) float64, mm^3.
+    """
+
+    cells: NDArray[np.int32]
+    ids: NDArray[np.int32]
+    volumes: NDArray[np.float64]
+    half_widths: NDArray[np.float64]
+
+
+_describe(CellVolumes)
+
+
+class MeasuredGrid(NamedTuple):
+    """The volumes in the cells of a grid. shape: numbers of cells along x, y and z. box: (low, high), mm."""
+
+    shape: tuple[int, int, int]
+    box: Bounds
+    regions: CellVolumes
+    materials: CellVolumes
+
+
+_describe(MeasuredGrid)
+
+
 class Measurement:
     """What Scene.measure() answers. measurement[path] is a part; measurement["all"] is all together.
 
-    parts: all together, assemblies, materials, regions. has_densities: whether there are masses. reached: whether each
-    region has reached the error, or with rays=N whether all rays were traced. rays: how many were traced. seconds: what
-    it took.
+    parts: all together, assemblies, materials, regions. grid: None without grid=(nx, ny, nz). has_densities: whether
+    there are masses. reached: whether each region has reached the error, or with rays=N whether all rays were traced.
+    rays: how many were traced. seconds: what it took.
     """
 
-    def __init__(self, rows: Iterable[Any], has_densities: bool, reached: bool, rays: int, seconds: float):
+    def __init__(self, rows: Iterable[Any], grid: Any, has_densities: bool, reached: bool, rays: int, seconds: float):
         def estimates(pairs: Iterable[Any]) -> tuple[Estimate, ...]:
             return tuple(Estimate(*pair) for pair in pairs)
 
@@ -369,6 +397,10 @@ class Measurement:
             Measured._make((kind, name, number, *estimates(figures), *map(estimates, moments), *rest,
                             Wall(*wall) if wall else None))
             for kind, name, number, figures, moments, *rest, wall in rows]
+        self.grid: MeasuredGrid | None = None
+        if grid:
+            shape, box, regions, materials = grid
+            self.grid = MeasuredGrid(shape, box, CellVolumes(*regions), CellVolumes(*materials))
         self.has_densities: bool = has_densities
         self.reached: bool = reached
         self.rays: int = rays

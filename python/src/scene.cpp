@@ -203,7 +203,7 @@ private:
     std::optional<Renderer> renderer_;
     std::optional<Edit> edit_;
     static constexpr std::size_t most_done = 100;
-    std::vector<Model> done_, undone_;  ///< before and behind the scene's Model, the nearest last
+    std::vector<Model> done_, undone_;            ///< before and behind the scene's Model, the nearest last
     std::mutex computing_, editing_;
     std::shared_ptr<AnswerPool> answer_pool_ = std::make_shared<AnswerPool>();
     std::atomic<std::thread::id> computes_ = {};  ///< the thread that holds `computing_`
@@ -400,9 +400,24 @@ nb::object wall_row(const Wall& wall) {
     return nb::make_tuple(wall.thickness, wall.from, wall.to, wall.is_tapered);
 }
 
+/// The members of csgrt.MeasuredGrid.
+nb::object grid_row(MeasuredGrid grid) {
+    if (grid.sides[0] == 0) return nb::none();
+    auto held = std::make_unique<MeasuredGrid>(std::move(grid));
+    MeasuredGrid& all = *held;
+    const nb::capsule kept = keeper(held);
+    const auto arrays = [&kept](CellVolumes& v) {
+        const std::size_t count = v.ids.size();
+        return nb::make_tuple(array(reinterpret_cast<std::int32_t*>(v.cells.data()), {count, 3}, kept),
+                              array(v.ids.data(), {count}, kept), array(v.volumes.data(), {count}, kept),
+                              array(v.half_widths.data(), {count}, kept));
+    };
+    return nb::make_tuple(nb::tuple(nb::cast(all.sides)), all.box, arrays(all.regions), arrays(all.materials));
+}
+
 /// The members of csgrt.Measurement, with a row for each part.
 Row measurement(LiveScene& scene, const MeasureRequest& request) {
-    const Measurement result = scene.measure(request);
+    Measurement result = scene.measure(request);
     const auto pairs = [](const auto& estimates) {
         Rows rows;
         for (const Estimate& e : estimates) rows.append(nb::make_tuple(e.value, e.half_width));
@@ -415,7 +430,8 @@ Row measurement(LiveScene& scene, const MeasureRequest& request) {
                                     nb::make_tuple(pairs(m.centroid), pairs(m.origin), pairs(m.central)), m.box,
                                     m.regions, m.reached, m.unmet, m.weightless, m.unmet_bound, m.thin,
                                     wall_row(m.wall)));
-    return nb::make_tuple(parts, result.has_densities, result.reached, result.rays, result.seconds);
+    return nb::make_tuple(parts, grid_row(std::move(result.grid)), result.has_densities, result.reached, result.rays,
+                          result.seconds);
 }
 
 }  // namespace

@@ -12,13 +12,13 @@ double quantile(std::size_t batches) { return batches == most_batches ? 2.039513
 
 /// The mean of a figure over the batches, and its interval. `figure_of(batch)`: the figure of a batch, or how much it
 /// adds to the mean's error.
-template <class Totals, class FigureOf>
-Estimate mean_of(const std::vector<Totals>& batches, const FigureOf& figure_of) {
+template <class Batches, class FigureOf>
+Estimate mean_of(const Batches& batches, const FigureOf& figure_of) {
     const auto count = static_cast<double>(batches.size());
     double sum = 0, squares = 0;
-    for (const Totals& batch : batches) sum += figure_of(batch);
+    for (const auto& batch : batches) sum += figure_of(batch);
     const double mean = sum / count;
-    for (const Totals& batch : batches) squares += (figure_of(batch) - mean) * (figure_of(batch) - mean);
+    for (const auto& batch : batches) squares += (figure_of(batch) - mean) * (figure_of(batch) - mean);
     return {mean, quantile(batches.size()) * std::sqrt(squares / (count - 1) / count)};
 }
 
@@ -40,6 +40,10 @@ struct Totals {
 };
 
 }  // namespace
+
+Estimate estimate_of(const std::array<double, least_batches>& batches) {
+    return mean_of(batches, [](double figure) { return figure; });
+}
 
 VolumeSoFar volume_of(const Source& source) {
     VolumeSoFar so_far;

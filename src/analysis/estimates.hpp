@@ -1,6 +1,7 @@
 // Estimates: means and 95 % intervals of the figures of regions and of groups of them, from sums of replicates.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -22,6 +23,9 @@ struct Source {
     Vec3 middle = {};                    ///< what the sums are relative to
     double weight = 1;                   ///< kg/mm³ if there are densities
 };
+
+/// The mean of a figure over its batches, and its interval.
+Estimate estimate_of(const std::array<double, least_batches>& batches);
 
 struct VolumeSoFar {
     Estimate volume = {};

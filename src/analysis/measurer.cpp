@@ -6,8 +6,10 @@
 #include <chrono>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <unordered_map>
 
+#include "analysis/cells.hpp"
 #include "analysis/estimates.hpp"
 #include "analysis/frame.hpp"
 #include "analysis/walls.hpp"
@@ -38,7 +40,9 @@ struct Job {
     std::int32_t region = everything;
     double rays = 0;                                           ///< of a grid
     std::uint32_t level = 0, first = 0, last = least_batches;  ///< numbers of the replicates
-    std::vector<Sums> sums = {};  ///< of each replicate; of everything, of each region and replicate
+    std::vector<Sums> sums = {};       ///< of each replicate; of everything, of each region and replicate
+    std::vector<CellSums> cells = {};  ///< of the region; of everything, of each region
+    std::size_t cell_volumes = 0;      ///< the elements of all `cells`
 
     double cost() const { return rays * grids * (last - first); }
 };
@@ -58,6 +62,20 @@ struct Found {
     std::int32_t region = 0;
     Sums sums = {};
     Chords chords = {};
+    std::vector<std::pair<std::uint32_t, double>> lengths = {};  ///< in cells
+
+    /// Sorts the lengths, and adds up those of each cell.
+    void join_lengths() {
+        std::stable_sort(lengths.begin(), lengths.end(), [](auto& a, auto& b) { return a.first < b.first; });
+        std::size_t last = 0;
+        for (std::size_t i = 1; i < lengths.size(); ++i) {
+            if (lengths[i].first == lengths[last].first)
+                lengths[last].second += lengths[i].second;
+            else
+                lengths[++last] = lengths[i];
+        }
+        if (!lengths.empty()) lengths.resize(last + 1);
+    }
 };
 
 struct Region {
@@ -68,6 +86,7 @@ struct Region {
     double own_rays = 0;
     std::uint32_t replicates = 0, levels = 0;  ///< of rays of its own
     std::vector<Sums> own = {};                ///< batches
+    CellSums cells = {};                       ///< of the same rays
     double weight = 1;
     bool has_density = false;
 };
@@ -80,6 +99,12 @@ void check(const MeasureRequest& request) {
     if (!(request.abs_error >= 0)) refuse("the absolute error of a measure must be 0 or more");
     if (!(request.time >= 0)) refuse("the time of a measure must be 0 or more");
     if (!(request.wall_limit >= 0)) refuse("the limit of walls must be 0 mm or more");
+    const auto [columns, rows, layers] = request.grid;
+    std::uint64_t cells = std::uint64_t(columns) * rows;
+    if (cells <= MeasureRequest::most_cells) cells *= layers;
+    if (cells == 0 && (columns | rows | layers) != 0) refuse("a grid of cells needs 1 or more along x, y and z");
+    if (cells > MeasureRequest::most_cells)
+        refuse("a grid of cells has 16,777,216 of them at most, as 256,256,256 has");
     if (request.rays > MeasureRequest::most_rays) refuse("a measure traces 1,000,000,000,000 rays at most");
     for (const Density& row : request.densities)
         if (!(row.density >= 0 && std::isfinite(row.density)))
@@ -129,10 +154,12 @@ struct Measurer::Impl {
     std::vector<Region> regions;
 
     MeasureRequest request;
-    double global_rays = 0;          ///< of a grid
-    std::vector<Sums> global;        ///< of each region and replicate
-    std::vector<Chords> all_chords;  ///< of each region, if walls are searched
-    std::vector<Wall> walls;         ///< of each region, at the end
+    double global_rays = 0;              ///< of a grid
+    std::vector<Sums> global;            ///< of each region and replicate
+    std::optional<CellGrid> cells;       ///< if the request asks for a grid
+    std::vector<CellSums> global_cells;  ///< of each region
+    std::vector<Chords> all_chords;      ///< of each region, if walls are searched
+    std::vector<Wall> walls;             ///< of each region, at the end
     std::uint32_t global_levels = 0;
     std::uint64_t traced = 0;
     Clock::time_point start, looked;
@@ -223,10 +250,12 @@ struct Measurer::Impl {
 
     void sum_piece(const Piece& p, const Grid& grid, std::size_t first_ray, std::vector<Found>& found) const;
     void flush(std::vector<Piece>& pieces, std::vector<Grid>& all_grids);
+    void add(Job& job, std::uint32_t replicate, double cell, const std::vector<Found>& found);
     void commit(Job& job);
     bool trace(std::vector<Job>& jobs, const std::function<bool()>& go_on);
     std::vector<Job> plan();
     Measurement result(bool all_parts) const;
+    MeasuredGrid take_grid();
 };
 
 /// Sums a piece's rays, region by region in the order in which they are met.
@@ -250,7 +279,8 @@ void Measurer::Impl::sum_piece(const Piece& p, const Grid& grid, std::size_t fir
         const auto begin = static_cast<std::size_t>(rows.ray_splits[ray]),
                    end = static_cast<std::size_t>(rows.ray_splits[ray + 1]);
         if (begin == end) continue;
-        const Vec3 origin = grid.ray(p.first + p.kept[i]).origin;
+        const Ray line = grid.ray(p.first + p.kept[i]);
+        const Vec3 origin = line.origin;
         for (std::size_t row = begin; row < end; ++row) {
             const std::int32_t r = rows.region_ids[row];
             if (wanted != everything && r != wanted) continue;
@@ -259,6 +289,9 @@ void Measurer::Impl::sum_piece(const Piece& p, const Grid& grid, std::size_t fir
             Found& of = found_of(r);
             Sums& sums = of.sums;
             sums.add(out - in, origin - regions[static_cast<std::size_t>(r)].middle + 0.5 * (in + out) * d, d);
+            if (cells)
+                cells->cut(line, in, out,
+                           [&of](std::uint32_t cell, double part) { of.lengths.emplace_back(cell, part); });
             const double slope = std::abs(dot(n, d)), end_slope = std::abs(dot(m, d));
             sums.area += slope + end_slope;
             if (!request.walls || std::min({slope, end_slope, -dot(n, m)}) < cos_of_walls) continue;
@@ -278,6 +311,7 @@ void Measurer::Impl::sum_piece(const Piece& p, const Grid& grid, std::size_t fir
             }
         }
     }
+    for (Found& of : found) of.join_lengths();
 }
 
 /// Traces the rays of pieces and adds their sums to the jobs, in the order of the pieces.
@@ -310,23 +344,40 @@ void Measurer::Impl::flush(std::vector<Piece>& pieces, std::vector<Grid>& all_gr
     renderer.partitions(list, rows, {.solids = request.walls, .normals = true, .overlaps = true}, {.each = ranges});
     traced += count;
     std::vector<std::vector<Found>> found(pieces.size());
-    for_chunks(pieces.size(), few, threads, [&](std::size_t first, std::size_t last, std::size_t) {
-        for (std::size_t i = first; i < last; ++i) sum_piece(pieces[i], all_grids[pieces[i].grid], firsts[i], found[i]);
-    });
-    for (std::size_t i = 0; i < pieces.size(); ++i) {
-        Job& job = *pieces[i].job;
-        const double cell = all_grids[pieces[i].grid].cell;
-        const std::size_t replicate = pieces[i].replicate - job.first;
-        for (const auto& [r, sums, chords] : found[i]) {
-            const std::size_t at =
-                job.region == everything ? static_cast<std::size_t>(r) * least_batches + replicate : replicate;
-            job.sums[at].add(sums, cell / grids, cell);
-            if (request.walls) all_chords[static_cast<std::size_t>(r)].add(chords, cell * job.rays);
+    // The lengths in cells of one piece may take 60 MB.
+    const std::size_t few_found = cells ? thread_count(threads) : pieces.size();
+    for (std::size_t begin = 0, end = 0; begin < pieces.size(); begin = end) {
+        end = std::min(begin + few_found, pieces.size());
+        for_chunks(end - begin, cells ? 1 : few, threads, [&](std::size_t first, std::size_t last, std::size_t) {
+            for (std::size_t i = begin + first; i < begin + last; ++i)
+                sum_piece(pieces[i], all_grids[pieces[i].grid], firsts[i], found[i]);
+        });
+        for (std::size_t i = begin; i < end; ++i) {
+            add(*pieces[i].job, pieces[i].replicate, all_grids[pieces[i].grid].cell, found[i]);
+            found[i].clear();
+            if (pieces[i].ends_job) commit(*pieces[i].job);
         }
-        if (pieces[i].ends_job) commit(job);
     }
     pieces.clear();
     all_grids.clear();
+}
+
+/// Adds the findings of a piece to its job.
+void Measurer::Impl::add(Job& job, std::uint32_t replicate, double cell, const std::vector<Found>& found) {
+    for (const auto& [r, sums, chords, lengths] : found) {
+        const std::size_t list = job.region == everything ? static_cast<std::size_t>(r) : 0;
+        job.sums[list * least_batches + replicate - job.first].add(sums, cell / grids, cell);
+        if (request.walls) all_chords[static_cast<std::size_t>(r)].add(chords, cell * job.rays);
+        for (const auto& [number, part] : lengths) {
+            const auto [of, is_new] = job.cells[list].try_emplace(number);
+            of->second[replicate % least_batches] += cell / grids * part;
+            job.cell_volumes += is_new;
+        }
+    }
+    if (job.cell_volumes > MeasureRequest::most_cell_volumes)
+        throw Error(Status::out_of_memory,
+                    "the grid has more than 33,554,432 volumes of regions in its cells: take "
+                    "fewer cells, or name objects to measure");
 }
 
 /// Takes the sums of a job whose rays all are traced.
@@ -334,6 +385,7 @@ void Measurer::Impl::commit(Job& job) {
     const std::vector<Sums> sums = std::move(job.sums);
     if (job.region == everything) {
         global = sums;
+        global_cells = std::move(job.cells);
         global_rays = job.rays;
         return;
     }
@@ -346,7 +398,14 @@ void Measurer::Impl::commit(Job& job) {
         by = std::pow(job.rays, 1.5) / (before + std::pow(job.rays, 1.5));
         if (!goes_in) region.own.clear();
         for (Sums& earlier : region.own) earlier = earlier.scaled(1 - by);
+        if (!goes_in) region.cells.clear();
+        for (auto& [number, earlier] : region.cells)
+            for (double& batch : earlier) batch *= 1 - by;
     }
+    for (const CellSums& list : job.cells)
+        for (const auto& [number, batches] : list)
+            for (std::size_t i = 0; i < least_batches; ++i) region.cells[number][i] += by * batches[i];
+    job.cells.clear();
     region.own_rays = job.rays;
     region.replicates = job.last;
     region.own.resize(std::min<std::size_t>(most_batches, job.last));
@@ -361,6 +420,7 @@ bool Measurer::Impl::trace(std::vector<Job>& jobs, const std::function<bool()>& 
     std::size_t count = 0;
     for (Job& job : jobs) {
         job.sums.resize(job.region == everything ? regions.size() * least_batches : job.last - job.first);
+        if (cells) job.cells.resize(job.region == everything ? regions.size() : 1);
         const Box& of = job.region == everything ? box : regions[static_cast<std::size_t>(job.region)].box;
         for (std::uint32_t replicate = job.first; replicate < job.last; ++replicate) {
             Random random{request.seed, static_cast<std::uint64_t>(job.region + 1), job.level, replicate};
@@ -520,6 +580,46 @@ Measurement Measurer::Impl::result(bool all_parts) const {
     return result;
 }
 
+/// Tells the volumes in cells, and frees what they are sums of.
+MeasuredGrid Measurer::Impl::take_grid() {
+    if (!cells) return {};
+    MeasuredGrid result{.sides = request.grid, .box = box};
+    const auto tell = [&](CellVolumes& volumes, std::int32_t id, const CellSums& sums) {
+        std::vector<std::uint32_t> numbers;
+        for (const auto& [number, batches] : sums) numbers.push_back(number);
+        std::sort(numbers.begin(), numbers.end());
+        for (const std::uint32_t number : numbers) {
+            const Estimate volume = estimate_of(sums.at(number));
+            const auto& sides = request.grid;
+            volumes.cells.push_back({static_cast<std::int32_t>(number % sides[0]),
+                                     static_cast<std::int32_t>(number / sides[0] % sides[1]),
+                                     static_cast<std::int32_t>(number / sides[0] / sides[1])});
+            volumes.ids.push_back(id);
+            volumes.volumes.push_back(volume.value);
+            volumes.half_widths.push_back(volume.half_width);
+        }
+    };
+    std::map<std::int32_t, CellSums> materials;
+    for (std::size_t r = 0; r < regions.size(); ++r) {
+        const bool is_own = regions[r].replicates > 0;
+        const double by = is_own ? static_cast<double>(least_batches) / regions[r].replicates : 1;
+        CellSums means;
+        means.swap(is_own ? regions[r].cells : global_cells[r]);
+        for (auto& [number, batches] : means)
+            for (double& batch : batches) batch *= by;
+        tell(result.regions, static_cast<std::int32_t>(r), means);
+        CellSums& material = materials[model.regions()[r].material_id];
+        if (material.empty()) {
+            material.swap(means);
+            continue;
+        }
+        for (const auto& [number, batches] : means)
+            for (std::size_t i = 0; i < least_batches; ++i) material[number][i] += batches[i];
+    }
+    for (const auto& [id, sums] : materials) tell(result.materials, id, sums);
+    return result;
+}
+
 Measurer::Measurer(Model model, const Settings& settings) : impl_(std::make_unique<Impl>(std::move(model), settings)) {}
 Measurer::~Measurer() = default;
 Measurer::Measurer(Measurer&&) noexcept = default;
@@ -537,12 +637,16 @@ Measurement Measurer::measure(const MeasureRequest& request, const std::function
     m.all_chords.assign(m.request.walls ? m.regions.size() : 0, {});
     m.walls.clear();
     m.global.clear();
+    m.global_cells.clear();
+    m.cells.reset();
+    if (request.grid[0] > 0 && !is_empty(m.box)) m.cells.emplace(m.box, request.grid);
     m.global_levels = 0;
     m.traced = 0;
     m.is_cut = false;
     for (Region& region : m.regions) {
         region.replicates = region.levels = 0;
         region.own.clear();
+        region.cells.clear();
     }
     m.start = m.looked = Clock::now();
     const auto go_on = [&] {
@@ -566,7 +670,9 @@ Measurement Measurer::measure(const MeasureRequest& request, const std::function
         if (error.status() != Status::interrupted || m.global.empty()) throw;
         m.is_cut = true;
     }
-    return m.result(true);
+    Measurement result = m.result(true);
+    result.grid = m.take_grid();
+    return result;
 }
 
 }  // namespace csgrt

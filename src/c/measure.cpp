@@ -20,6 +20,11 @@ void copy(const std::array<Estimate, count>& from, csgrt_estimate (&to)[count]) 
     std::transform(from.begin(), from.end(), to, [](const Estimate& e) { return ::of(e); });
 }
 
+csgrt_cell_volumes of(const CellVolumes& v) {
+    const auto* const cells = reinterpret_cast<const std::int32_t*>(v.cells.data());
+    return {v.ids.size(), cells, v.ids.data(), v.volumes.data(), v.half_widths.data()};
+}
+
 }  // namespace
 
 csgrt_status csgrt_measurer_create(const csgrt_model* model, const csgrt_settings* settings,
@@ -71,6 +76,18 @@ csgrt_status csgrt_measurer_part(const csgrt_measurer* measurer, size_t index, c
         all.is_tapered = m.wall.is_tapered;
         std::copy(m.wall.shares.begin(), m.wall.shares.end(), all.wall_shares);
         fill(part, all, "part");
+    });
+}
+
+csgrt_status csgrt_measurer_grid(const csgrt_measurer* measurer, csgrt_measured_grid* grid) {
+    return call([&] {
+        const MeasuredGrid& of = CSGRT_NEED(measurer).result.grid;
+        csgrt_measured_grid all CSGRT_MEASURED_GRID;
+        std::copy(of.sides.begin(), of.sides.end(), all.sides);
+        all.box = csgrt::c::of(of.box);
+        all.regions = ::of(of.regions);
+        all.materials = ::of(of.materials);
+        fill(grid, all, "grid");
     });
 }
 

@@ -212,6 +212,11 @@ void define(Options& options, MeasureArguments& arguments) {
                  arguments.json);
     options.text("--csv", "FILE", "write all figures as CSV, a line for each part; - is standard output, likewise",
                  arguments.csv);
+    options.list(
+        "--grid-output", "FILE",
+        "write the volumes in the cells of --grid, by the suffix as arrays for NumPy (.npz) or as an image for "
+        "VTK (.vti); may be given several times",
+        arguments.cells);
     define_either(options, arguments.settings);
 }
 

@@ -1,7 +1,9 @@
 // Options of commands, made from the descriptions of public structs (form/requests.hpp).
 #pragma once
 
+#include <array>
 #include <cctype>
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <string>
@@ -50,6 +52,8 @@ Option& define_member(Options& options, const Member& member, Target& target) {
     } else if constexpr (std::is_same_v<Kind, form::Bytes>) {
         return options.value(o.name, o.value, help + "; such as 512M or 2G, too (powers of 1024)", target, parse_memory,
                              o.expected);
+    } else if constexpr (std::is_same_v<Target, std::array<std::uint32_t, 3>>) {
+        return options.value(o.name, o.value, help, target, parse_cells, o.expected);
     } else if constexpr (std::is_enum_v<Target>) {
         return options.choice(o.name, help, target, *member.kind.offered);
     } else if constexpr (std::is_integral_v<Target>) {

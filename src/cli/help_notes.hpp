@@ -108,6 +108,9 @@ density x volume x los / 100, and regions without one count as weightless and ar
 A wall is measured from a face, along its inward normal, to a face that looks away within 30
 degrees. ~: its faces are not parallel. The exit status is 8 if a wall is below --wall-limit.
 
+--grid divides the model's box into cells. FILE.npz has a row for each volume of a region or a
+material in a cell, and FILE.vti fractions of each cell; docs/analysis.md tells the arrays' names.
+
 The same seed gives the same figures on every device and any number of threads, unless --time or
 Ctrl-C ends the measure. Ctrl-C prints what there is; the exit status is 130 then.
 )";

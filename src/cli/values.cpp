@@ -44,6 +44,18 @@ std::optional<Vec3> parse_vector(std::string_view text) {
     return Vec3{numbers[0], numbers[1], numbers[2]};
 }
 
+std::optional<std::array<std::uint32_t, 3>> parse_cells(std::string_view text) {
+    const auto given = parse_vector(text);
+    if (!given) return std::nullopt;
+    const double numbers[] = {given->x, given->y, given->z};
+    std::array<std::uint32_t, 3> cells;
+    for (std::size_t i = 0; i < 3; ++i) {
+        if (!(numbers[i] >= 1 && numbers[i] < 0x1p32 && numbers[i] == std::floor(numbers[i]))) return std::nullopt;
+        cells[i] = static_cast<std::uint32_t>(numbers[i]);
+    }
+    return cells;
+}
+
 std::optional<double> parse_bound(std::string_view text) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     if (same_word(text, "inf") || same_word(text, "+inf")) return infinity;

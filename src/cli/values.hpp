@@ -1,6 +1,7 @@
 // Readers of values on the command line and in files of rays.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -36,6 +37,9 @@ std::optional<Look> parse_look_color(std::string_view text);
 
 /// Reads "x:512": an axis, and a number from 1 to max_side.
 std::optional<std::pair<Axis, int>> parse_grid(std::string_view text);
+
+/// Reads "NX,NY,NZ": numbers of cells, each from 1 to 2^32 - 1.
+std::optional<std::array<std::uint32_t, 3>> parse_cells(std::string_view text);
 
 /// Reads a decimal whole number, the whole of `text`.
 std::optional<std::uint64_t> parse_count(std::string_view text);

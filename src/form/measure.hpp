@@ -56,6 +56,15 @@ inline constexpr auto of<MeasureRequest> = Form{
               .value = "MM",
               .absent = "none is",
               .expected = "a length in millimetres, 0 or more"}),
+    optional(
+        "grid", &MeasureRequest::grid, List{count, 3, 3},
+        "Cells along x, y and z of a grid over the box of what is measured, in each of which volumes are measured, "
+        "too.",
+        {.concern = Concern::work,
+         .name = "--grid",
+         .value = "NX,NY,NZ",
+         .absent = "no grid",
+         .expected = "three whole numbers of 1 or more with commas between them, such as 20,20,10"}),
 };
 
 }  // namespace csgrt::form

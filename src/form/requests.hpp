@@ -173,10 +173,11 @@ std::string whole_sentence(const Member& member, const Value& usual) {
         if (member.kind.low > 0 && has_end)
             bounds = std::to_string(member.kind.low) + " to " + std::to_string(member.kind.high);
     }
-    if constexpr (std::is_arithmetic_v<Value> && !std::is_same_v<Value, bool>) {
-        if (*member.option.absent && usual <= Value(0) && member.option.concern != Concern::picture)
+    constexpr bool is_number = std::is_arithmetic_v<Value> && !std::is_same_v<Value, bool>;
+    if constexpr (is_number || std::is_same_v<Value, std::array<std::uint32_t, 3>>) {
+        if (*member.option.absent && usual <= Value{} && member.option.concern != Concern::picture)
             bounds +=
-                (bounds.empty() ? "" : "; ") + std::string(usual < Value(0) ? "-1: " : "0: ") + member.option.absent;
+                (bounds.empty() ? "" : "; ") + std::string(usual < Value{} ? "-1: " : "0: ") + member.option.absent;
     }
     if (!bounds.empty()) sentence += " " + bounds + ".";
     return sentence;

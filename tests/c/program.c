@@ -106,6 +106,7 @@ int main(void) {
         csgrt_measure_request request = CSGRT_MEASURE_REQUEST;
         csgrt_measurement result = CSGRT_MEASUREMENT;
         csgrt_measured part = CSGRT_MEASURED;
+        csgrt_measured_grid grid = CSGRT_MEASURED_GRID;
         const double volume = 20 * 20 * 5 - 3.14159265358979 * 3 * 3 * 5;
         request.rel_error = 1e-3;
         request.densities = &steel;
@@ -119,6 +120,14 @@ int main(void) {
         EXPECT(part.volume.value > 0.998 * volume && part.volume.value < 1.002 * volume);
         EXPECT(part.mass.value > 0.998 * 7.85e-6 * volume && part.mass.value < 1.002 * 7.85e-6 * volume);
         EXPECT(csgrt_measurer_part(measurer, 3, &part) == CSGRT_ERROR_USAGE);
+        request.grid[0] = request.grid[1] = 2;
+        request.grid[2] = 1;
+        EXPECT(csgrt_measurer_measure(measurer, &request, &result) == CSGRT_OK);
+        EXPECT(csgrt_measurer_grid(measurer, &grid) == CSGRT_OK);
+        EXPECT(grid.sides[1] == 2 && grid.box.high.x == 10 && grid.regions.count == 4 && grid.materials.count == 4);
+        EXPECT(grid.regions.cells[3] == 1 && grid.regions.cells[4] == 0 && grid.regions.ids[3] == 0);
+        EXPECT(grid.regions.volumes[3] > 0.99 * volume / 4 && grid.regions.volumes[3] < 1.01 * volume / 4);
+        EXPECT(grid.regions.half_widths[3] > 0 && grid.materials.volumes[3] == grid.regions.volumes[3]);
         request.rel_error = 0;
         EXPECT(csgrt_measurer_measure(measurer, &request, &result) == CSGRT_ERROR_USAGE);
     }

@@ -1,5 +1,6 @@
 // csgrt measure: what it prints and writes.
 #include <cmath>
+#include <cstring>
 #include <sstream>
 
 #include <nlohmann/json.hpp>
@@ -136,4 +137,71 @@ TEST_CASE("a database's densities are kept by convert", "[promise:measure]") {
     const Result first = run({"measure", scene, "--json", "-"});
     CHECK(json::parse(first.out)["parts"][0].contains("mass"));
     CHECK(run({"measure", folder / "blocks.json", "--json", "-"}).out == first.out);
+}
+
+TEST_CASE("measure writes the volumes in the cells of a grid", "[promise:measure]") {
+    NEEDS_COMMAND();
+    const Folder folder;
+    const std::string scene = folder.write("blocks.asc", blocks);
+    const auto write = [&](const std::string& name, const std::string& threads) {
+        const Result result = run({"measure", scene, "--grid", "6,2,1", "--grid-output", folder / name, "--grid-output",
+                                   folder / ("a" + name), "--threads", threads});
+        CAPTURE(result.err);
+        REQUIRE(result.status == 0);
+        CHECK(read_file(folder / name) == read_file(folder / ("a" + name)));
+        return read_file(folder / name);
+    };
+    const std::string npz = write("cells.npz", "1"), vti = write("cells.vti", "2");
+    CHECK(write("cells.npz", "2") == npz);
+    CHECK(npz.starts_with("PK\3\4"));
+    CHECK(contains(npz, "region_half_widths.npy"));
+
+    CHECK(contains(vti, "WholeExtent=\"0 6 0 2 0 1\" Origin=\"0 0 0\" Spacing=\"2.5 5 10\""));
+    CHECK(contains(vti, "Name=\"material 1 steel\""));
+    CHECK(contains(vti, "Name=\"material 2\""));
+    std::size_t at = vti.find("\n_") + 2;
+    const auto next = [&](auto* values) {
+        std::uint64_t bytes;
+        std::memcpy(&bytes, vti.data() + at, sizeof bytes);
+        REQUIRE(bytes == 12 * sizeof *values);
+        std::memcpy(values, vti.data() + at + sizeof bytes, bytes);
+        at += sizeof bytes + bytes;
+    };
+    double all[12], steel[12], other[12];
+    std::int32_t regions[12];
+    next(all);
+    next(regions);
+    next(steel);
+    next(other);
+    CHECK(vti.substr(at) == "\n</AppendedData>\n</VTKFile>\n");
+    for (int i = 0; i < 12; ++i) {
+        CAPTURE(i);
+        CHECK(std::abs(all[i] - 1) < 0.05);  // both blocks fill the box
+        CHECK(regions[i] == (i % 6 < 4 ? 0 : 1));
+        CHECK(steel[i] == (i % 6 < 4 ? all[i] : 0));
+        CHECK(other[i] == (i % 6 < 4 ? 0 : all[i]));
+    }
+}
+
+TEST_CASE("a wrong grid is refused before the measure", "[promise:measure]") {
+    NEEDS_COMMAND();
+    const Folder folder;
+    const std::string scene = folder.write("blocks.asc", blocks);
+    const std::pair<std::vector<std::string>, const char*> wrong[] = {
+        {{"--grid", "6,2,1"}, "--grid-output FILE.npz"},
+        {{"--grid-output", folder / "a.npz"}, "--grid NX,NY,NZ"},
+        {{"--grid", "6,2,1", "--grid-output", folder / "a.csv"}, "a.csv' ends in neither .npz nor .vti"},
+        {{"--grid", "6,0,1", "--grid-output", folder / "a.npz"}, "'6,0,1' is not three whole"},
+        {{"--grid", "6,2", "--grid-output", folder / "a.npz"}, "'6,2' is not three whole"},
+        {{"--grid", "4294967297,1,1", "--grid-output", folder / "a.npz"}, "1' is not three whole"},
+        {{"--grid", "4096,4096,2", "--grid-output", folder / "a.npz"}, "16,777,216 of them at most"}};
+    for (const auto& [options, text] : wrong) {
+        std::vector<std::string> words = {"measure", scene};
+        words.insert(words.end(), options.begin(), options.end());
+        const Result result = run(words);
+        CAPTURE(result.err, text);
+        CHECK(result.status == 2);
+        CHECK(contains(result.err, text));
+    }
+    CHECK(!fs::exists(folder / "a.npz"));
 }

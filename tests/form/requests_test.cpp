@@ -79,6 +79,8 @@ std::string c_members(const std::string& name) {
         return "const csgrt_plane* " + name + ";\n    size_t " + name + "_count;";
     else if constexpr (std::is_same_v<Value, std::vector<Density>>)
         return "const csgrt_density* " + name + ";\n    size_t density_count;";
+    else if constexpr (std::is_same_v<Value, std::array<std::uint32_t, 3>>)
+        return "uint32_t " + name + "[3];";
     else if constexpr (std::is_same_v<Value, Camera>)
         return "const csgrt_camera* " + name + ";  ///< NULL: CSGRT_CAMERA";
     else if constexpr (std::is_same_v<Value, std::optional<PixelRectangle>>)
@@ -126,6 +128,8 @@ std::string c_value(const Value& value) {
         return std::to_string(static_cast<long long>(value));
     else if constexpr (std::is_same_v<Value, Vec3>)
         return "{" + shortest(value.x) + ", " + shortest(value.y) + ", " + shortest(value.z) + "}";
+    else if constexpr (std::is_same_v<Value, std::array<std::uint32_t, 3>>)
+        return "{" + c_value(value[0]) + ", " + c_value(value[1]) + ", " + c_value(value[2]) + "}";
     else if constexpr (std::is_same_v<Value, Box>)
         return "{" + c_value(value.low) + ", " + c_value(value.high) + "}";
     else if constexpr (std::is_same_v<Value, std::optional<double>>)

@@ -355,6 +355,14 @@ def test_measure_weighs_parts():
     thin = scene.measure(wall_limit=5.5)["/plate"]
     assert thin.thin == 1 and thin.wall == (5, thin.wall.start, thin.wall.end, False)
     assert sorted((thin.wall.start[2], thin.wall.end[2])) == [0, 5]
+    assert result.grid is None
+    grid = scene.measure(rel_error=1e-3, grid=(4, 5, 2)).grid
+    assert grid.shape == (4, 5, 2) and grid.box == ((0, 0, 0), (20, 20, 5))
+    cells, ids, volumes, half_widths = grid.regions
+    assert cells.shape == (len(ids), 3) and cells.max(axis=0).tolist() == [3, 4, 1]
+    full = (ids == plate.id) & (cells[:, 0] == 0)
+    assert full.sum() == 10 and np.all(abs(volumes[full] - 50) < 3 * half_widths[full])
+    assert np.isclose(grid.materials.volumes.sum(), volumes.sum(), rtol=1e-12)
     with pytest.raises(KeyError, match="did you mean '/plate'"):
         result["/plat"]
     for wrong in ({"rel_eror": 1}, {"rel_error": "x"}, {"densities": {1: "a"}}, {"densities": {1.5: 1}}):
@@ -362,6 +370,20 @@ def test_measure_weighs_parts():
             scene.measure(**wrong)
     with pytest.raises(csgrt.Error, match="must be greater than 0"):
         scene.measure(rel_error=0)
+
+
+def test_the_command_writes_volumes_in_cells_for_numpy(command, scenes, tmp_path):
+    scene = scenes / "bracket.json"
+    command("measure", scene, "--grid", "7,5,3", "--grid-output", tmp_path / "cells.npz", capture_output=True)
+    grid = csgrt.load(scene).measure(grid=(7, 5, 3)).grid
+    with np.load(tmp_path / "cells.npz") as cells:
+        assert tuple(cells["shape"]) == grid.shape
+        np.testing.assert_array_equal(cells["box"], grid.box)
+        assert list(cells["region_names"]) == [region.path for region in csgrt.load(scene).regions]
+        assert list(cells["material_names"]) == [f"material {number}" for number in cells["material_numbers"]]
+        for kind, known in (("region", grid.regions), ("material", grid.materials)):
+            for name in known._fields:
+                np.testing.assert_array_equal(cells[f"{kind}_{name}"], getattr(known, name))
 
 
 def test_a_path_has_the_box_of_the_regions_below_it():

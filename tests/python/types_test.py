@@ -11,7 +11,7 @@ from conftest import ROOT
 from documents_test import blocks
 
 RIGHT = """
-from typing import Literal
+from typing import Literal, Optional
 import csgrt, numpy as np
 from numpy.typing import NDArray
 from typing_extensions import assert_type
@@ -36,6 +36,7 @@ assert_type(image["ghost"], NDArray[np.uint32])
 assert_type(scene.pick(np.int64(3), 3).partitions, list[tuple[int, float, float]])
 assert_type(scene.verify()["wrong"], int)
 assert_type(scene.measure(rel_error=1e-3, densities={1: 7.85, "/a": 1})["/a"].mass.nominal, float)
+assert_type(scene.measure(grid=(2, 3, 4)).grid, Optional[csgrt.MeasuredGrid])
 assert_type(scene["/a"].state, Literal["shown", "ghost", "hidden"])
 scene["/a"].color = np.array([0, 1, 0])
 scene["/a"].finish = {"specular": 0.5}

@@ -73,7 +73,8 @@ struct MeasureArguments : SceneArguments {
     MeasureRequest request;
     std::string densities;  ///< file or empty
     int depth = 2;
-    std::string json, csv;  ///< file, "-" or empty
+    std::string json, csv;           ///< file, "-" or empty
+    std::vector<std::string> cells;  ///< files
 };
 
 struct CompareArguments {

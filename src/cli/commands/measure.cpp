@@ -10,6 +10,7 @@
 #include "cli/interrupt.hpp"
 #include "cli/output.hpp"
 #include "cli/progress.hpp"
+#include "cli/text/cells.hpp"
 #include "cli/text/measurement.hpp"
 
 namespace csgrt::cli {
@@ -34,6 +35,18 @@ std::vector<Warning> drop_unused(std::vector<Density>& densities, const Model& m
     return warnings;
 }
 
+void check_grid(const MeasureArguments& arguments) {
+    const bool has_grid = arguments.request.grid[0] > 0;
+    if (has_grid && arguments.cells.empty())
+        refuse("--grid", "a table cannot show the volumes in cells",
+               "name a file with --grid-output FILE.npz or FILE.vti");
+    if (!has_grid && !arguments.cells.empty())
+        refuse("--grid-output", "there are no cells to write", "say how many with --grid NX,NY,NZ");
+    for (const std::string& file : arguments.cells)
+        if (const std::string extension = extension_of(file); extension != ".npz" && extension != ".vti")
+            refuse("--grid-output", "'" + file + "' ends in neither .npz nor .vti", "a file's name says its format");
+}
+
 }  // namespace
 
 Status run(const MeasureArguments& arguments) {
@@ -41,6 +54,8 @@ Status run(const MeasureArguments& arguments) {
     if (!arguments.json.empty()) outputs.push_back({"--json", arguments.json});
     if (!arguments.csv.empty()) outputs.push_back({"--csv", arguments.csv});
     if (!arguments.densities.empty()) inputs.push_back({"--densities", arguments.densities});
+    check_grid(arguments);
+    for (const std::string& file : arguments.cells) outputs.push_back({"--grid-output", file});
     check_outputs(outputs, inputs);
     MeasureRequest request = arguments.request;
     if (!arguments.densities.empty()) request.densities = load_densities(arguments.densities);
@@ -77,6 +92,9 @@ Status run(const MeasureArguments& arguments) {
         out.write(text);
         out.commit();
     }
+    if (!arguments.cells.empty() && result.grid.sides[0] == 0)
+        refuse("--grid", "the model has no bounded region for a grid to cover", "name other objects");
+    for (const std::string& file : arguments.cells) write_cells(result, file);
     if (arguments.json != "-" && arguments.csv != "-") print(to_text(result, request, arguments.depth, table_width()));
     if (interrupted()) return Status::interrupted;
     return result.parts.front().thin > 0 ? Status::differs : Status::ok;
