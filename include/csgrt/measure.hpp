@@ -132,6 +132,9 @@ class CSGRT_API Measurer {
 public:
     /// Throws as Renderer does, and Error (usage) for a model with a region that has no end.
     explicit Measurer(Model model, const Settings& settings = {});
+    /// Measures the model of a Renderer, with its rays. The Renderer must outlive the Measurer, and keep its model.
+    /// `threads`: see Settings. Throws Error (usage) for a model with a region that has no end.
+    explicit Measurer(Renderer& renderer, unsigned threads = 0);
     ~Measurer();
     Measurer(Measurer&&) noexcept;
     Measurer& operator=(Measurer&&) noexcept;

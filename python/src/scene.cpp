@@ -104,8 +104,7 @@ public:
     template <class Call>
     void run(const Call& call) {
         require_own_process();
-        if (computes_ == std::this_thread::get_id())
-            throw Error(Status::usage, "a signal handler asks the scene whose call it interrupts");
+        if (computes_ == std::this_thread::get_id()) throw own_call();
         {
             nb::gil_scoped_release unlocked;
             const std::lock_guard lock(computing_);
@@ -147,6 +146,7 @@ public:
     }
     void commit() {
         require_own_process();
+        const auto no_measure = end_of_measure();
         nb::gil_scoped_release unlocked;
         const std::lock_guard lock(editing_);
         if (!edit_) return;
@@ -164,6 +164,7 @@ public:
     /// Goes one commit back, or forward again.
     void step(bool back) {
         require_own_process();
+        const auto no_measure = end_of_measure();
         nb::gil_scoped_release unlocked;
         const std::lock_guard lock(editing_);
         if (edit_) throw usage("edits wait: commit() or discard() them first");
@@ -186,11 +187,27 @@ public:
 
     Measurement measure(const MeasureRequest& request) {
         Measurement result;
-        run([&](Renderer& renderer) { result = Measurer(renderer.model(), settings_).measure(request); });
+        run([&](Renderer& renderer) {
+            const std::lock_guard lock(measuring_);
+            Measurer measurer(renderer, settings_.threads);
+            is_measure_ = true;
+            struct End {
+                bool& mark;
+                ~End() { mark = false; }
+            } end{is_measure_};
+            result = measurer.measure(request);
+        });
         return result;
     }
 
 private:
+    /// Waits for the end of a measure, whose many calls need one model, and lets none begin.
+    std::unique_lock<std::mutex> end_of_measure() {
+        if (computes_ == std::this_thread::get_id() && is_measure_) throw own_call();
+        nb::gil_scoped_release unlocked;
+        return std::unique_lock(measuring_);
+    }
+    static Error own_call() { return usage("a signal handler asks the scene whose call it interrupts"); }
     void require_own_process() const {
         if (getpid() != process_)
             throw Error(Status::usage, "the scene was loaded before this process was forked: load it again");
@@ -204,7 +221,8 @@ private:
     std::optional<Edit> edit_;
     static constexpr std::size_t most_done = 100;
     std::vector<Model> done_, undone_;            ///< before and behind the scene's Model, the nearest last
-    std::mutex computing_, editing_;
+    std::mutex computing_, measuring_, editing_;  ///< in the order in which they are locked
+    bool is_measure_ = false;                     ///< whether the call of `computes_` is one
     std::shared_ptr<AnswerPool> answer_pool_ = std::make_shared<AnswerPool>();
     std::atomic<std::thread::id> computes_ = {};  ///< the thread that holds `computing_`
     pid_t process_ = getpid();

@@ -130,7 +130,8 @@ Box joined(const Box& a, const Box& b) {
 }  // namespace
 
 struct Measurer::Impl {
-    Impl(Model m, const Settings& settings) : renderer(m, settings), model(std::move(m)), threads(settings.threads) {
+    Impl(std::unique_ptr<Renderer> kept, Renderer& used, unsigned count)
+        : opened(std::move(kept)), renderer(used), model(used.model()), threads(count) {
         for (const RegionInfo& info : model.regions()) {
             Region region{.box = info.bounds, .is_empty = is_empty(info.bounds)};
             if (!region.is_empty) {
@@ -147,7 +148,8 @@ struct Measurer::Impl {
         }
     }
 
-    Renderer renderer;
+    std::unique_ptr<Renderer> opened;
+    Renderer& renderer;  ///< `opened`, or the caller's
     Model model;
     unsigned threads;
     Box box = {{1, 1, 1}, {-1, -1, -1}};
@@ -620,7 +622,12 @@ MeasuredGrid Measurer::Impl::take_grid() {
     return result;
 }
 
-Measurer::Measurer(Model model, const Settings& settings) : impl_(std::make_unique<Impl>(std::move(model), settings)) {}
+Measurer::Measurer(Model model, const Settings& settings) {
+    auto own = std::make_unique<Renderer>(std::move(model), settings);
+    Renderer& used = *own;
+    impl_ = std::make_unique<Impl>(std::move(own), used, settings.threads);
+}
+Measurer::Measurer(Renderer& renderer, unsigned threads) : impl_(std::make_unique<Impl>(nullptr, renderer, threads)) {}
 Measurer::~Measurer() = default;
 Measurer::Measurer(Measurer&&) noexcept = default;
 Measurer& Measurer::operator=(Measurer&&) noexcept = default;

@@ -194,6 +194,15 @@ TEST_CASE("cells have the same bits on every device and number of threads, and c
     CHECK(bytes_of(measurer.measure(request)) == bytes);
 }
 
+TEST_CASE("a renderer's own rays measure as a measurer's", "[promise:measure]") {
+    const Settings settings{.device = "native"};
+    Renderer renderer(Model(blocks(), {}, settings), settings);
+    const MeasureRequest request{.rel_error = 1e-3, .grid = {3, 2, 1}};
+    const Measurement result = Measurer(renderer).measure(request);
+    CHECK(bytes_of(result) == bytes_of(measured(blocks(), request)));
+    CHECK(result.parts[0].volume.value == measured(blocks(), request).parts[0].volume.value);
+}
+
 TEST_CASE("a grid of no cells, or of too many, is refused", "[promise:measure]") {
     const auto refusal = [](const Sides& sides) {
         const test::Thrown thrown = thrown_by([&] { measured(blocks(), {.grid = sides}); });

@@ -5,6 +5,7 @@ import io
 import json
 import pickle
 import re
+import signal
 import sys
 import warnings
 
@@ -370,6 +371,26 @@ def test_measure_weighs_parts():
             scene.measure(**wrong)
     with pytest.raises(csgrt.Error, match="must be greater than 0"):
         scene.measure(rel_error=0)
+
+
+def test_the_model_stays_while_it_is_measured():
+    scene = csgrt.Scene({"ball": csgrt.sphere(1)})
+    told = []
+
+    def undo(*_):
+        with pytest.raises(csgrt.Error, match="a signal handler asks the scene whose call it interrupts"):
+            scene.undo()
+        told.append(scene["/ball"].color)
+
+    before = signal.signal(signal.SIGALRM, undo)
+    try:
+        signal.setitimer(signal.ITIMER_REAL, 0.1)
+        assert not scene.measure(rel_error=1e-12, time=0.5).reached
+    finally:
+        signal.signal(signal.SIGALRM, before)
+    assert told
+    with pytest.raises(csgrt.Error, match="there is no commit to undo"):
+        scene.undo()
 
 
 def test_the_command_writes_volumes_in_cells_for_numpy(command, scenes, tmp_path):
