@@ -169,6 +169,12 @@ TEST_CASE("an added part is dragged without compiling the scene again", "[promis
     CHECK_THROWS_AS(Edit(Model(scene)).set_matrix("corners", moved(0, 0, 1)).commit(), Error);
 }
 
+TEST_CASE("an object that loses its last solid gets a warning", "[promise:edits]") {
+    const Scene scene =
+        between_corners({group("none", {}), group("some", {leg("none"), leg("ball"), op(Operator::union_, 2)})});
+    require_compiled_anew(Edit(Model(scene)).remove("/some/ball").commit());
+}
+
 TEST_CASE("one of several instances moves without compiling the scene again", "[promise:edits]") {
     Scene scene =
         between_corners({region("a", {leg("ball")}), region("b", {leg("ball", moved(0, 5, 0))}),

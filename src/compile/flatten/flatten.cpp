@@ -222,6 +222,12 @@ struct Found {
     std::vector<Term> terms;
     double solids = 0;             ///< of all terms
     bool has_equal_paths = false;  ///< some paths may be equal
+
+    /// The number of the object that has a region.
+    std::size_t object_of(const FlatRegion& region) const {
+        const auto found = std::ranges::upper_bound(objects, std::size_t{region.term}, {}, &NamedObject::end);
+        return static_cast<std::size_t>(found - objects.begin());
+    }
 };
 
 Found find_regions(const Source& source, const std::vector<std::string>& objects, bool air,
@@ -468,7 +474,11 @@ std::optional<Moved> take_out(FlatScene& flat, const std::vector<Member>& remove
     auto& [source, found, uses] = *flat.walk;
     Moved gone;
     gone.regions = regions_with(flat, {removed, {}});
-    if (gone.regions.size() == flat.regions.size()) return {};
+    std::vector<bool> has_some(found.objects.size());  // an object that is rendered and has none gets a warning
+    for (std::uint32_t i = 0; i < flat.regions.size(); ++i)
+        if (!std::ranges::binary_search(gone.regions, i)) has_some[found.object_of(flat.regions[i])] = true;
+    for (const std::uint32_t i : gone.regions)
+        if (!has_some[found.object_of(flat.regions[i])]) return {};
     count_uses(flat);
     for (const std::uint32_t region : gone.regions) {
         const auto& [forest, term] = found.terms[flat.regions[region].term];
