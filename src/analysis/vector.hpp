@@ -13,6 +13,11 @@ inline Vec3 operator*(double s, const Vec3& a) { return {s * a.x, s * a.y, s * a
 inline double dot(const Vec3& a, const Vec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 inline double length(const Vec3& a) { return std::sqrt(dot(a, a)); }
 
+inline Vec3 cross(const Vec3& a, const Vec3& b) {
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+inline Vec3 unit(const Vec3& v) { return 1 / length(v) * v; }
+
 inline Vec3 center_of(const Box& box) { return 0.5 * (box.low + box.high); }
 
 }  // namespace csgrt::analysis

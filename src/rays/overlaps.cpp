@@ -39,6 +39,8 @@ void append_evaluated(const CompiledScene& scene, const kernel::OverlapRecord& o
 void append_listed(const CompiledScene& scene, const ListedOverlaps& listed, std::size_t first, std::size_t end,
                    RowMemory& rows) {
     std::vector<std::uint32_t> found;
+    rows.overlaps.reserve(end - first);
+    rows.overlap_regions.reserve(2 * (end - first));
     for (std::size_t i = first; i < end; ++i) {
         const kernel::OverlapRecord& record = listed.records[i];
         const auto deep = std::ranges::lower_bound(listed.deep.rays, record.ray, {}, &SomeRays::Place::ray);
