@@ -8,6 +8,7 @@
     METHOD(bit_sequential)    \
     METHOD(bit_parallel)      \
     METHOD(status_tree)       \
+    METHOD(jansen_lists)      \
     METHOD(blist)             \
     METHOD(pruning)           \
     METHOD(kensler)           \

@@ -49,6 +49,32 @@ Sequence stretches_of(const RayEvents& events, const std::vector<std::uint32_t>&
     return hit == stretches.end() ? Sequence{} : Sequence{*hit};
 }
 
+const std::vector<std::uint32_t>& StepOwners::find(const RayEvents& events, const Classify& classify) {
+    classify(0, owners_);
+    if (!events.marked) return owners_;
+    // Steps that no marked segment covers are the same on all sides.
+    const auto for_touched = [&](const auto& change) {
+        for (const RayEvents::Segment& segment : events.segments)
+            for (std::uint32_t step = segment.in; segment.missed && step < segment.out; ++step) change(step);
+    };
+    // Where two solids are, and so two sides.
+    first_.assign(events.steps(), NONE);
+    moved_.assign(events.steps(), 0);
+    for (const RayEvents::Segment& segment : events.segments)
+        for (std::uint32_t step = segment.in; step < segment.out; ++step) {
+            moved_[step] = moved_[step] || (first_[step] != NONE && first_[step] != segment.solid);
+            first_[step] = segment.solid;
+        }
+    for_touched([&](std::uint32_t step) { owners_[step] = moved_[step] ? NONE : owners_[step]; });
+    for (std::uint32_t side = 1; side < SIDES; ++side) {
+        classify(kernel::missed_on(side), here_);
+        for_touched([&](std::uint32_t step) {
+            if (moved_[step]) owners_[step] = std::min(owners_[step], here_[step]);
+        });
+    }
+    return owners_;
+}
+
 std::vector<std::vector<std::uint32_t>> regions_of_solids(const CompiledScene& scene) {
     std::vector<std::vector<std::uint32_t>> lists(scene.solids.size());
     for (std::uint32_t region = 0; region < scene.flat_trees.size(); ++region)

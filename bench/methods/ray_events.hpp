@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "method.hpp"
@@ -38,6 +39,19 @@ void append(Sequence& stretches, const Stretch& next);
 /// Of each step the region that claims it, or NONE -> the ray's stretches. `first`: only the first one that does not
 /// end at or behind the ray's start.
 Sequence stretches_of(const RayEvents& events, const std::vector<std::uint32_t>& region_of_step, bool first);
+
+/// Of each step the region that claims it, on any side of the faces that the ray runs in.
+class StepOwners {
+public:
+    /// `classify` finds of each step the least region that claims it, or NONE, by the segments that have none of
+    /// `missed`.
+    using Classify = std::function<void(std::uint32_t missed, std::vector<std::uint32_t>& claimed)>;
+    const std::vector<std::uint32_t>& find(const RayEvents& events, const Classify& classify);
+
+private:
+    std::vector<std::uint32_t> owners_, here_, first_;
+    std::vector<std::uint8_t> moved_;
+};
 
 /// The regions whose trees have a solid: a list for each solid, ascending.
 std::vector<std::vector<std::uint32_t>> regions_of_solids(const CompiledScene& scene);

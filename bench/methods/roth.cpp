@@ -232,30 +232,8 @@ public:
 
     void trace(const Ray& ray, Answer& answer) {
         events_.find(shared_.rays, ray);
-        auto& [owners, here] = claimed_;
-        classify(0, owners);
-        if (events_.marked) {
-            // Steps that no marked segment covers are the same on all sides.
-            const auto for_touched = [this](const auto& change) {
-                for (const RayEvents::Segment& segment : events_.segments)
-                    for (std::uint32_t step = segment.in; segment.missed && step < segment.out; ++step) change(step);
-            };
-            // Where two solids are, and so two sides.
-            first_.assign(events_.steps(), NONE);
-            moved_.assign(events_.steps(), 0);
-            for (const RayEvents::Segment& segment : events_.segments)
-                for (std::uint32_t step = segment.in; step < segment.out; ++step) {
-                    moved_[step] = moved_[step] || (first_[step] != NONE && first_[step] != segment.solid);
-                    first_[step] = segment.solid;
-                }
-            for_touched([&](std::uint32_t step) { owners[step] = moved_[step] ? NONE : owners[step]; });
-            for (std::uint32_t side = 1; side < SIDES; ++side) {
-                classify(kernel::missed_on(side), here);
-                for_touched([&](std::uint32_t step) {
-                    if (moved_[step]) owners[step] = std::min(owners[step], here[step]);
-                });
-            }
-        }
+        const std::vector<std::uint32_t>& owners =
+            owners_.find(events_, [this](std::uint32_t missed, auto& claimed) { classify(missed, claimed); });
         answer.stretches = stretches_of(events_, owners, shared_.first_hits);
     }
 
@@ -279,8 +257,8 @@ private:
     RayEvents events_;
     SolidLists solids_;
     Combiner combiner_;
-    std::vector<std::uint32_t> regions_, claimed_[2], first_;
-    std::vector<std::uint8_t> moved_;
+    StepOwners owners_;
+    std::vector<std::uint32_t> regions_;
 };
 
 }  // namespace
