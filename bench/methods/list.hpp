@@ -10,6 +10,7 @@
     METHOD(status_tree)       \
     METHOD(jansen_lists)      \
     METHOD(blist)             \
+    METHOD(cst)               \
     METHOD(pruning)           \
     METHOD(kensler)           \
     METHOD(bisection)         \

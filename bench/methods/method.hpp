@@ -63,6 +63,7 @@ struct Method {
     std::vector<double> knob_values = {};            ///< from coarse to fine
     bool first_hits = true, every_partition = true;  ///< what it can answer
     bool exact = true;       ///< it has no error of its own: its regions are those of the reference
+    bool gives_up = false;   ///< there are scenes of which it answers few rays or none
     bool on_device = false;  ///< it has kernels
     /// Throws Error (usage), with words, if the method cannot trace this subject.
     std::function<std::unique_ptr<Tracer>(const Subject&, const TraceOptions&)> prepare;
