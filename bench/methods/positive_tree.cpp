@@ -148,4 +148,49 @@ PositiveTree positive_tree(const FlatTree& tree, Grouping grouping, bool planted
     return Grouper(Gates(tree, planted), grouping).take();
 }
 
+GeneralTree::Edge GeneralTree::add_leaf(std::uint32_t solid) {
+    nodes.push_back({Operator::leaf, solid, 0});
+    return root = {static_cast<std::uint32_t>(nodes.size() - 1), false};
+}
+
+GeneralTree::Edge GeneralTree::add(Gate gate, Edge left, Edge right) {
+    const bool is_union = gate == Gate::union_;
+    bool complement = left.complement;
+    if (gate == Gate::xor_) {
+        nodes.push_back({Operator::xor_, left.node, right.node});
+        complement = left.complement != right.complement;
+    } else if (left.complement == right.complement) {  // both complemented: by De Morgan
+        nodes.push_back(
+            {is_union != left.complement ? Operator::union_ : Operator::intersection, left.node, right.node});
+    } else {  // a and not b = a - b; a or not b = not (b - a)
+        const bool left_first = left.complement == is_union;
+        nodes.push_back(
+            {Operator::difference, left_first ? left.node : right.node, left_first ? right.node : left.node});
+        complement = is_union;
+    }
+    return root = {static_cast<std::uint32_t>(nodes.size() - 1), complement};
+}
+
+GeneralTree general_form(const FlatTree& tree, bool planted) {
+    GeneralTree general;
+    std::vector<GeneralTree::Edge> stack;
+    for (const FlatTree::Node& node : tree.nodes) {
+        if (node.op == Operator::leaf) {
+            stack.push_back(general.add_leaf(node.solid));
+            continue;
+        }
+        const bool is_difference = node.op == Operator::difference && !planted;
+        const bool is_union = node.op == Operator::union_ || (node.op == Operator::difference && planted);
+        const Gate gate = is_union ? Gate::union_ : node.op == Operator::xor_ ? Gate::xor_ : Gate::intersection;
+        const std::size_t first = stack.size() - node.arity;
+        GeneralTree::Edge value = stack[first];
+        value.complement = value.complement != (node.op == Operator::not_);
+        for (std::size_t i = first + 1; i < stack.size(); ++i)
+            value = general.add(gate, value, {stack[i].node, stack[i].complement != is_difference});
+        stack.resize(first);
+        stack.push_back(general.root = value);
+    }
+    return general;
+}
+
 }  // namespace csgrt::bench

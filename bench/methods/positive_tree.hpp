@@ -34,4 +34,27 @@ enum class Grouping {
 /// `planted`: every difference is taken for a union, for tests.
 PositiveTree positive_tree(const FlatTree& tree, Grouping grouping, bool planted);
 
+/// A tree without complements: A and not B is A - B. Only the root may be complemented: then the region holds the empty
+/// space.
+struct GeneralTree {
+    struct Node {
+        Operator op = Operator::leaf;
+        std::uint32_t left = 0;  ///< leaf: the solid
+        std::uint32_t right = 0;
+    };
+    /// A node, or its complement.
+    struct Edge {
+        std::uint32_t node = 0;
+        bool complement = false;
+    };
+    std::vector<Node> nodes;  ///< operands before the nodes that use them
+    Edge root;
+
+    Edge add_leaf(std::uint32_t solid);
+    Edge add(Gate gate, Edge left, Edge right);
+};
+
+/// As it is written: n operands of one operator are a chain to the left.
+GeneralTree general_form(const FlatTree& tree, bool planted);
+
 }  // namespace csgrt::bench
