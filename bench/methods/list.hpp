@@ -13,6 +13,7 @@
     METHOD(cst)               \
     METHOD(pruning)           \
     METHOD(kensler)           \
+    METHOD(ulyanov)           \
     METHOD(bisection)         \
     METHOD(sphere_tracing)    \
     METHOD(depth_buffer)      \

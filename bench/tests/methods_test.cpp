@@ -7,7 +7,7 @@
 #include <csgrt/csgrt.hpp>
 
 #include "bench/chart/truth.hpp"
-#include "bench/methods/method.hpp"
+#include "bench/methods/list.hpp"
 #include "catch.hpp"
 #include "device/compiling_device.hpp"
 #include "stress/build.hpp"
@@ -290,6 +290,31 @@ TEST_CASE("a difference that a method takes for a union shows in the judge's cou
         CHECK(wrong->decided > 30);
         CHECK(wrong->wrong > right->wrong);
     }
+}
+
+TEST_CASE("Ulyanov's trees are equivalent, and no higher than chains", "[methods]") {
+    std::vector<Judged> scenes{drilled()};
+    for (std::uint64_t seed = 0; seed < 6; ++seed) scenes.push_back(from_family("nested", seed, 30));
+    scenes.push_back(from_family("deep_trees", 8, 6));
+    std::size_t lower = 0;
+    for (const Judged& on : scenes) {
+        INFO(on.name);
+        std::map<double, std::vector<Answer>> answers;
+        std::map<double, double> heights;
+        for (const double trees : {0, 1, 2}) {
+            TraceOptions options;
+            options.knob = trees;
+            const auto tracer = ulyanov().prepare({on.scene, on.objects, on.compiled}, options);
+            answers[trees] = tracer->trace(on.rays);
+            heights[trees] = tracer->figures().at("largest height");
+        }
+        CHECK(heights[2] <= heights[0]);
+        lower += heights[2] < heights[0];
+        for (std::size_t i = 0; i < on.rays.size(); ++i)
+            for (const double trees : {0, 2})
+                CHECK(same_regions(joined(answers[trees][i].stretches), joined(answers[1][i].stretches)));
+    }
+    CHECK(lower > 3);
 }
 
 TEST_CASE("methods with kernels say so where a device has its kernels compiled ahead", "[methods]") {
