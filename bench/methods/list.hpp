@@ -12,6 +12,7 @@
     METHOD(blist)             \
     METHOD(cst)               \
     METHOD(pruning)           \
+    METHOD(layers)            \
     METHOD(kensler)           \
     METHOD(ulyanov)           \
     METHOD(bisection)         \
