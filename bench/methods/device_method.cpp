@@ -8,7 +8,6 @@
 #include "compile/records/converter.hpp"
 #include "device/choice.hpp"
 #include "pipeline/passes/batch_buffers.hpp"
-#include "pipeline/passes/partitions.hpp"
 #include "pipeline/passes/scene_tables.hpp"
 #include "ray_events.hpp"
 #include "rays/along.hpp"
@@ -86,6 +85,7 @@ public:
                              std::uint32_t segments) { return launch(kernel, input, memory, segments); }},
           pass_(device_, scene_, *records_, with_methods({.evaluation = &evaluation_})) {
         most_rays_ = batch_rays;
+        if (method_.work) work_ = method_.work(device_);
         if (method_.ray_words == 0) return;
         const std::uint64_t bytes = method_.ray_words * sizeof(std::uint32_t);
         const std::uint64_t rays = std::min(most_ray_memory, device_.max_buffer()) / bytes;
@@ -107,11 +107,14 @@ public:
             else
                 most_rays_ = static_cast<std::uint32_t>((count + 1) / 2);
         }
+        seconds_ = 1e-3 * (before_ms() + counts_.evaluate);
+        if (work_) work_figures_ = work_->take_figures(counts_, seconds_);
         return answers;
     }
 
-    double seconds() const override { return 1e-3 * (before_ms() + counts_.evaluate); }
+    double seconds() const override { return seconds_; }
     std::map<std::string, double> figures() const override {
+        if (work_) return work_figures_;
         std::map<std::string, double> figures = method_.figures;
         figures["kernel 4 ms"] = counts_.evaluate;
         figures["kernels 1 to 3 ms"] = before_ms();
@@ -131,6 +134,7 @@ private:
     }
 
     Event launch(Kernel& kernel, const PartitionPass::Input& input, PartitionMemory& memory, std::uint32_t segments) {
+        if (work_) return work_->launch(kernel, input, memory);
         const std::size_t bytes = std::size_t{input.rays} * method_.ray_words * sizeof(std::uint32_t);
         memory_.reserve(bytes);
         if (bytes) memory_.queue_fill(0, bytes);
@@ -155,6 +159,10 @@ private:
         if (!pass_.trace_counted({scene_tables_, batch_, Work::rays, count}, timed)) return false;
         add_times(timed, counts_);
         const TracedBatch traced = pass_.read(count);
+        if (work_) {
+            work_->read(traced, rays, answers);
+            return true;
+        }
         for (std::uint32_t ray = 0; ray < count; ++ray) {
             const std::uint32_t segments = traced.offsets[ray + 1].segments - traced.offsets[ray].segments;
             const std::size_t first = 2 * std::size_t{traced.offsets[ray].segments};
@@ -181,6 +189,9 @@ private:
     SceneTables scene_tables_;
     Buffer tables_, memory_;
     BatchBuffers batch_;
+    std::unique_ptr<DeviceWork> work_;
+    std::map<std::string, double> work_figures_;
+    double seconds_ = 0;
     Evaluation evaluation_;
     PartitionPass pass_;
     std::uint32_t most_rays_ = 0;

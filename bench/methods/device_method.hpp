@@ -2,15 +2,30 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "method.hpp"
+#include "pipeline/passes/partitions.hpp"
 #include "positive_tree.hpp"
 
 namespace csgrt::bench {
+
+/// What a method does with its kernel if that does not look for the owners of kernel 3's partitions.
+class DeviceWork {
+public:
+    virtual ~DeviceWork() = default;
+    virtual Event launch(Kernel& kernel, const PartitionPass::Input& input, PartitionMemory& memory) = 0;
+    /// The answers of the batch that was launched last. `traced`: what csgrt's kernels 1 to 3 made of it.
+    virtual void read(const TracedBatch& traced, std::span<const Ray> rays, Answer* answers) = 0;
+    /// Since the last call. `csgrt`: the times of kernels 1 to 3, and as kernel 4's that of the last launch. `seconds`:
+    /// of the kernels that count as the method's time.
+    virtual std::map<std::string, double> take_figures(const PipelineCounts& csgrt, double& seconds) = 0;
+};
 
 struct DeviceMethod {
     std::string name;                                ///< for messages
@@ -19,6 +34,7 @@ struct DeviceMethod {
     bool item_a_ray = false;                         ///< else a work-item is a node of kernel 3's lists
     std::size_t ray_words = 0;                       ///< of memory that a ray has, 0 at first
     std::map<std::string, double> figures;
+    std::function<std::unique_ptr<DeviceWork>(Device&)> work = {};  ///< none: the kernel looks for owners
 };
 
 /// Throws Error: no_device; usage, if the device's kernels are compiled ahead; device_fault; out_of_memory.

@@ -17,6 +17,7 @@
     METHOD(ulyanov)           \
     METHOD(bisection)         \
     METHOD(sphere_tracing)    \
+    METHOD(yang_lists)        \
     METHOD(depth_buffer)      \
     METHOD(meshes)
 

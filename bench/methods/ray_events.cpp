@@ -7,27 +7,29 @@ namespace csgrt::bench {
 
 void RayEvents::find(const SceneRays& rays, const Ray& ray) {
     rays.boundaries(ray, -std::numeric_limits<double>::infinity(), boundaries_);
+    sort(boundaries_, boundaries_.empty() ? 0 : rays.tolerance(ray));
+}
+
+void RayEvents::sort(const std::vector<kernel::Boundary>& boundaries, double tolerance) {
     at.clear();
     segments.clear();
     marked = false;
-    if (boundaries_.empty()) return;
-    const double tolerance = rays.tolerance(ray);
-    order_.resize(boundaries_.size());
-    event_of_.resize(boundaries_.size());
+    order_.resize(boundaries.size());
+    event_of_.resize(boundaries.size());
     std::iota(order_.begin(), order_.end(), 0u);
     std::sort(order_.begin(), order_.end(), [&](std::uint32_t a, std::uint32_t b) {
-        return boundaries_[a].t < boundaries_[b].t || (boundaries_[a].t == boundaries_[b].t && a < b);
+        return boundaries[a].t < boundaries[b].t || (boundaries[a].t == boundaries[b].t && a < b);
     });
     double first = 0;
     for (const std::uint32_t end : order_) {
-        const double t = boundaries_[end].t;
+        const double t = boundaries[end].t;
         if (at.empty() || !(t == first || t - first <= tolerance)) at.push_back(first = t);
         event_of_[end] = static_cast<std::uint32_t>(at.size() - 1);
     }
-    for (std::size_t i = 0; i < boundaries_.size(); i += 2) {
+    for (std::size_t i = 0; i < boundaries.size(); i += 2) {
         if (event_of_[i] >= event_of_[i + 1]) continue;
-        const std::uint32_t missed = boundaries_[i].surface & MISSED;
-        segments.push_back({boundaries_[i].solid, event_of_[i], event_of_[i + 1], missed});
+        const std::uint32_t missed = boundaries[i].surface & MISSED;
+        segments.push_back({boundaries[i].solid, event_of_[i], event_of_[i + 1], missed});
         marked = marked || missed;
     }
 }

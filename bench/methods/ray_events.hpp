@@ -27,6 +27,8 @@ struct RayEvents {
 
     /// Replaces all by what the ray meets.
     void find(const SceneRays& rays, const Ray& ray);
+    /// The same of boundaries in memory, in then out by ascending solid.
+    void sort(const std::vector<kernel::Boundary>& boundaries, double tolerance);
     std::uint32_t steps() const { return at.empty() ? 0 : static_cast<std::uint32_t>(at.size() - 1); }
 
 private:

@@ -329,9 +329,34 @@ TEST_CASE("methods with kernels say so where a device has its kernels compiled a
         INFO(method.name);
         TraceOptions options;
         options.device = native.front().info.name;
+        if (!method.knob_values.empty()) options.knob = method.knob_values.front();
         CHECK_THROWS_WITH(method.prepare({on.scene, on.objects, on.compiled}, options),
                           ContainsSubstring(method.name) && ContainsSubstring("compiled ahead"));
     }
+}
+
+TEST_CASE("Yang's lists are the segments of kernels 1 and 2, in whatever order they come", "[.pocl][methods]") {
+    TraceOptions options;
+    try {
+        options.device = test::compiling_device();
+    } catch (const Error& error) {
+        if (error.status() != Status::no_device) throw;
+        WARN("there is no device");
+        return;
+    }
+    std::vector<Judged> scenes{from_family("depth", 8, 12, false), from_family("edges", 3, 60, false)};
+    for (const Judged& on : scenes)
+        for (const double items : {1, 4, 7}) {
+            INFO(on.name << ", " << items << " work-items a ray");
+            options.knob = items;
+            const auto tracer = yang_lists().prepare({on.scene, on.objects, on.compiled}, options);
+            const std::vector<Answer> answers = tracer->trace(on.rays);
+            const std::map<std::string, double> figures = tracer->figures();
+            CHECK(figures.at("rays whose bits differ from kernels 1 and 2") == 0);
+            if (&on == &scenes[0]) CHECK(figures.at("runs") == 2);  // the first buffer was too small
+            for (std::size_t i = 0; i < on.rays.size(); ++i)
+                REQUIRE(same_regions(joined(answers[i].stretches), on.truth[i].sequence));
+        }
 }
 
 namespace {
