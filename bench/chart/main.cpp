@@ -241,7 +241,8 @@ int measure(Options options) {
     const DeviceInfo device = device_of(options);
     const bool is_gpu = device.type == "gpu";
     const std::vector<Variant> variants_chosen = choose(variants(), options.variants, "--variants");
-    const std::vector<Method> methods_chosen = choose(methods(), options.methods, "--methods");
+    std::vector<Method> methods_chosen = choose(methods(), options.methods, "--methods");
+    std::erase_if(methods_chosen, [](const Method& method) { return !method.on_chart; });
     if (options.trial.size == 0) options.trial.size = is_gpu ? 4096 : 512;
     if (options.trial.deep_size == 0) options.trial.deep_size = std::max(1, options.trial.size / 32);
     // Every variant keeps its memory while the others draw.

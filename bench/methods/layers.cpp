@@ -1,4 +1,4 @@
-// Mostajabodaveh et al. 2017: layers with two counters; thesis section 2.1.1, equation 2.6.
+// Mostajabodaveh et al. 2017: "CSG ray tracing revisited"; thesis section 2.1.1, equation 2.6.
 //
 // Theory: a model is a union of layers, and each layer is a union of positive solids less a union of negative ones.
 // Along a ray two counters are kept a layer: how many positive solids the ray is in, and how many negative ones. It is

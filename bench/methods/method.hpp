@@ -65,6 +65,7 @@ struct Method {
     bool exact = true;       ///< it has no error of its own: its regions are those of the reference
     bool gives_up = false;   ///< there are scenes of which it answers few rays or none
     bool on_device = false;  ///< it has kernels
+    bool on_chart = true;    ///< false: its time is that of a part of its work
     /// Throws Error (usage), with words, if the method cannot trace this subject.
     std::function<std::unique_ptr<Tracer>(const Subject&, const TraceOptions&)> prepare;
 };

@@ -1,4 +1,5 @@
-// Ulyanov et al. 2017: "A pipeline for optimizing CSG trees for GPU ray tracing"; thesis section 2.2.
+// Ulyanov, Bogolepov, Turlapov 2017: "Interactive vizualization of constructive solid geometry scenes on graphic
+// processors"; the phases are those of the thesis, section 2.2.
 //
 // Theory: a tree is rewritten before it is traced, in four phases:
 //

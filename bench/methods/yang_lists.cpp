@@ -188,6 +188,7 @@ Method yang_lists() {
         .knob_values = {1, 4},
         .first_hits = false,
         .on_device = true,
+        .on_chart = false,
         .prepare = [](const Subject& subject, const TraceOptions& options) {
             if (!(options.knob >= 1 && options.knob <= 64) || options.knob != std::floor(options.knob))
                 throw Error(Status::usage, "Yang's lists: needs from 1 to 64 work-items a ray");
