@@ -150,6 +150,7 @@ public:
         }
         given_up_ += one_place_;
         answer.answered = !one_place_;
+        if (one_place_) answer.stretches.clear();
     }
     Counts counts() const {
         Counts counts{{"surfaces in one place, share of rays", {given_up_}},
@@ -211,9 +212,13 @@ private:
         sweep(missed, [&](std::uint32_t event) {
             trimmed_here_.clear();
             for (const std::uint32_t solid : crossing_)
-                for (const Surface& surface : shared_.surfaces[solid]) trim(surface, surface.zone);
-            for_regions([&](std::uint32_t region, std::size_t possible, bool certain, bool) {
-                if (possible > 1 || !certain) one_place_ = true;
+                for (const Surface& surface : shared_.surfaces[solid])
+                    if (trim(surface, surface.zone) == (can_be_in | can_be_out)) {
+                        one_place_ = true;
+                        return false;
+                    }
+            for_regions([&](std::uint32_t region, std::size_t own, bool, bool) {
+                if (own > 1) one_place_ = true;
                 std::uint32_t& in = entered_[region];
                 if (in == NONE) {
                     open_.push_back(region);
@@ -247,10 +252,12 @@ private:
         return true;
     }
 
-    void trim(const Surface& surface, const Zone& zone) {
+    /// What outcomes_of() says.
+    unsigned trim(const Surface& surface, const Zone& zone) {
         ++trimmed_;
         const unsigned outcomes = outcomes_of(zone);
         if (outcomes & can_be_in) trimmed_here_.push_back({surface.region, outcomes, surface.under_xor});
+        return outcomes;
     }
 
     /// each(region, how many surfaces may be its own, whether one of them is for certain, whether one is under a xor)

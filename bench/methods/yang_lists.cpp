@@ -13,13 +13,12 @@
 // How it is judged: the sorted lists are compared with what kernels 1 and 2 stored, bit by bit, but for ends that
 // kernel 3 has moved to their event since; and the regions follow from the lists, on the host, by Blists. The method's
 // time is that of its two kernels alone, to be compared with that of kernels 1 and 2, and not with methods that
-// evaluate trees.
+// evaluate trees: the chart leaves it out.
 //
 // Cost: an atomic addition and an exchange a segment, a step or more a node to sort, and memory by the largest batch.
-// Prediction: bits the same. On processors faster than counting and
-// storing, since each solid is intersected once and the hierarchy walked once; on a GPU slower, since a ray's
-// candidates wait for each other and one counter serves all. Broken by depth, if it has several work-items a ray:
-// sorting a list of n takes n^2 steps.
+// Prediction: bits the same. On processors faster than counting and storing, since each solid is intersected once and
+// the hierarchy walked once; on a GPU slower, since a ray's candidates wait for each other and one counter serves all.
+// Broken by depth, if it has several work-items a ray: sorting a list of n takes n^2 steps.
 //
 // Mulder's semi-linked lists (thesis section 2.3.1) are not here. They give single nodes back while others are taken,
 // by an allocator in the kernel (KMA, Spliet et al.), which lays its heap out on the device and which no OpenCL driver
