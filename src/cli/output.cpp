@@ -7,6 +7,7 @@
 #include <utility>
 
 #include <fcntl.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <csgrt/error.hpp>
@@ -122,10 +123,19 @@ void OutputFile::fail() const {
                                   (code == EBADF ? "it is closed" : std::strerror(code)));
 }
 
-void print(std::string_view text) {
-    OutputFile out("-");
+void write_file(const std::string& path, std::string_view text) {
+    if (path.empty()) return;
+    OutputFile out(path);
     out.write(text);
     out.commit();
+}
+
+void print(std::string_view text) { write_file("-", text); }
+
+std::size_t table_width() {
+    winsize size{};
+    const bool is_known = ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
+    return std::clamp<std::size_t>(is_known ? size.ws_col : 100, 80, 120);
 }
 
 }  // namespace csgrt::cli

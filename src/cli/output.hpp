@@ -38,7 +38,13 @@ private:
     std::optional<NewFile> file_;  ///< absent: standard output
 };
 
+/// Writes a text to a file, as OutputFile does. An empty path, of an option that is not given, is no file.
+void write_file(const std::string& path, std::string_view text);
+
 /// Prints on standard output; Error (file) if that fails.
 void print(std::string_view text);
+
+/// Columns of a table on standard output: those of the terminal, from 80 to 120.
+std::size_t table_width();
 
 }  // namespace csgrt::cli

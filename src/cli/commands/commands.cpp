@@ -21,12 +21,20 @@ void refuse(const char* option, std::string message, std::string suggestion) {
     throw Error(Status::usage, {std::move(diagnostic)});
 }
 
-Settings with_progress(const Settings& settings, Progress& progress) {
+Settings until_interrupt(const Settings& settings) {
     Settings result = settings;
-    result.progress = [&progress](double fraction) {
-        progress.update(fraction);
+    result.progress = [](double) {
         catch_fatal_ends_again();
         return !interrupted();
+    };
+    return result;
+}
+
+Settings with_progress(const Settings& settings, Progress& progress) {
+    Settings result = until_interrupt(settings);
+    result.progress = [&progress, goes_on = result.progress](double fraction) {
+        progress.update(fraction);
+        return goes_on(fraction);
     };
     return result;
 }

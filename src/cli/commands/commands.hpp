@@ -120,6 +120,9 @@ Status run(const TextArguments& arguments);
 /// Throws Error (usage) about an option or an argument.
 [[noreturn]] void refuse(const char* option, std::string message, std::string suggestion);
 
+/// Settings whose progress function stops the work after an interrupt. Notes tell how far the work is.
+Settings until_interrupt(const Settings& settings);
+
 /// Settings whose progress function updates `progress`, and stops the work after an interrupt. `progress` must outlive
 /// the settings' use.
 Settings with_progress(const Settings& settings, Progress& progress);

@@ -1,5 +1,4 @@
 // csgrt info: prints the contents of a scene, before and after compilation.
-#include <cmath>
 #include <cstdio>
 #include <map>
 #include <optional>
@@ -12,6 +11,7 @@
 #include "cli/output.hpp"
 #include "cli/progress.hpp"
 #include "form/answers.hpp"
+#include "cli/text/figures.hpp"
 #include "cli/text/partitions.hpp"
 #include "cli/text/scene.hpp"
 #include "cli/text/statistics.hpp"
@@ -93,21 +93,9 @@ std::string model_rows(const Compiled& compiled) {
 
 // ---- JSON ----
 
-std::string json_vector(const Vec3& v) {
-    std::string text;
-    for (const double number : {v.x, v.y, v.z}) {
-        text += text.empty() ? "[" : ", ";
-        if (std::isfinite(number))
-            append_shortest(text, number);
-        else
-            text += "null";
-    }
-    return text + "]";
-}
-
 std::string json_box(const Box& box) {
     if (!(box.low.x <= box.high.x)) return "null";
-    return "{\"low\": " + json_vector(box.low) + ", \"high\": " + json_vector(box.high) + "}";
+    return "{\"low\": " + json_point(box.low) + ", \"high\": " + json_point(box.high) + "}";
 }
 
 std::string json_region(const RegionInfo& region, std::size_t index) {
@@ -122,7 +110,7 @@ std::string json_region(const RegionInfo& region, std::size_t index) {
             else if constexpr (std::is_same_v<Value, int>)
                 text += std::to_string(value);
             else if constexpr (std::is_same_v<Value, Vec3>)
-                text += json_vector(value);
+                text += json_point(value);
             else if constexpr (std::is_same_v<Value, Box>)
                 text += json_box(value);
             else

@@ -2,11 +2,7 @@
 #include <algorithm>
 #include <utility>
 
-#include <sys/ioctl.h>
-#include <unistd.h>
-
 #include "commands.hpp"
-#include "cli/fatal_end.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/output.hpp"
 #include "cli/progress.hpp"
@@ -16,13 +12,6 @@
 namespace csgrt::cli {
 
 namespace {
-
-/// Columns of the table: those of the terminal, from 80 to 120.
-std::size_t table_width() {
-    winsize size{};
-    const bool is_known = ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
-    return std::clamp<std::size_t>(is_known ? size.ws_col : 100, 80, 120);
-}
 
 /// Takes out the rows of a table whose paths are of no region. A table may be that of a larger model.
 std::vector<Warning> drop_unused(std::vector<Density>& densities, const Model& model) {
@@ -67,16 +56,11 @@ Status run(const MeasureArguments& arguments) {
         Scene scene = load(arguments.scene, arguments.load);
         if (arguments.densities.empty()) request.densities = scene.densities;
         progress.stage("compiling");
-        Settings settings = with_progress(arguments.settings, progress);
-        Model model(std::move(scene), arguments.objects, settings);
+        Model model(std::move(scene), arguments.objects, with_progress(arguments.settings, progress));
         report(model.warnings(), false);
         report(drop_unused(request.densities, model), false);
         check_interrupt();
-        settings.progress = [](double) {  // the note tells how far it is
-            catch_fatal_ends_again();
-            return !interrupted();
-        };
-        Measurer measurer(std::move(model), settings);
+        Measurer measurer(std::move(model), until_interrupt(arguments.settings));
         report(measurer.renderer().device_warnings(), false);
         progress.stage("measuring");
         result = measurer.measure(request, [&](const Measurement& so_far) {
@@ -84,14 +68,8 @@ Status run(const MeasureArguments& arguments) {
             return !interrupted();
         });
     }
-    const std::pair<const std::string&, std::string> files[] = {{arguments.json, to_json(result, request)},
-                                                                {arguments.csv, to_csv(result)}};
-    for (const auto& [file, text] : files) {
-        if (file.empty()) continue;
-        OutputFile out(file);
-        out.write(text);
-        out.commit();
-    }
+    write_file(arguments.json, to_json(result, request));
+    write_file(arguments.csv, to_csv(result));
     if (!arguments.cells.empty() && result.grid.sides[0] == 0)
         refuse("--grid", "the model has no bounded region for a grid to cover", "name other objects");
     for (const std::string& file : arguments.cells) write_cells(result, file);

@@ -59,11 +59,7 @@ Status run(const VerifyArguments& arguments) {
         table = to_text(result, verifier.renderer());
         json = to_json(result, verifier.renderer());
     }
-    if (!arguments.json.empty()) {
-        OutputFile out(arguments.json);
-        out.write(json);
-        out.commit();
-    }
+    write_file(arguments.json, json);
     if (arguments.json != "-") print(table);
     return result.passed() ? Status::ok : Status::differs;
 }

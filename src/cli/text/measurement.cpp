@@ -2,11 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <utility>
 #include <vector>
 
-#include "base/decimal.hpp"
+#include "figures.hpp"
 #include "form/measure.hpp"
 #include "statistics.hpp"
 #include "tables.hpp"
@@ -19,12 +18,6 @@ constexpr std::size_t most_listed = 10;  ///< regions in a list of remarks
 constexpr const char* axes[] = {"x", "y", "z"};
 constexpr const char* moments[] = {"xx", "yy", "zz", "xy", "yz", "zx"};
 
-std::string format_number(const char* format, double value) {
-    char text[64];
-    std::snprintf(text, sizeof text, format, value);
-    return text;
-}
-
 /// "7.0971e+08 +- 1.2e+05": the value down to the second digit of its error.
 std::string figure(const Estimate& e) {
     if (!std::isfinite(e.value)) return "-";
@@ -35,16 +28,6 @@ std::string figure(const Estimate& e) {
            format_number("%.2g", e.half_width);
 }
 
-std::string percent(double fraction) { return format_number("%.2g", 100 * fraction) + " %"; }
-std::string relative(const Estimate& e) { return e.value > 0 ? percent(e.half_width / e.value) : "-"; }
-
-std::string padded(std::string text, std::size_t width) {
-    text.resize(std::max(width, text.size()), ' ');
-    return text;
-}
-std::string right(const std::string& text, std::size_t width) {
-    return std::string(width - std::min(width, text.size()), ' ') + text;
-}
 std::string figure_line(const std::string& name, const std::string& value) { return padded(name, 20) + value + "\n"; }
 
 std::string counted_regions(std::uint64_t count) {
@@ -59,10 +42,6 @@ std::string cells(const Estimate& e) {
 /// "0.1", "7.8~" if it is tapered, "-" if there is none.
 std::string wall_of(const Wall& wall) {
     return wall.thickness > 0 ? format_number("%.6g", wall.thickness) + (wall.is_tapered ? "~" : "") : "-";
-}
-
-std::string point_of(const Vec3& p) {
-    return format_number("%.6g", p.x) + " " + format_number("%.6g", p.y) + " " + format_number("%.6g", p.z);
 }
 
 /// A list of regions, each with a remark; `all`: how many there are.
@@ -175,11 +154,6 @@ void for_estimates(const Measured& m, bool has_densities, const Each& each) {
     for (std::size_t i = 0; i < 6; ++i) each(std::string("central_") + moments[i], m.central[i]);
 }
 
-std::string json_figure(double value) { return std::isfinite(value) ? shortest(value) : "null"; }
-std::string json_point(const Vec3& p) {
-    return "[" + json_figure(p.x) + ", " + json_figure(p.y) + ", " + json_figure(p.z) + "]";
-}
-
 std::string json_wall(const Wall& wall) {
     if (wall.thickness == 0) return ", \"wall\": null";
     std::string shares;
@@ -211,15 +185,14 @@ std::string to_json(const Measurement& result, const MeasureRequest& request) {
                 ", \"id\": " + std::to_string(m.id);
         is_first = false;
         for_estimates(m, result.has_densities, [&text](const std::string& name, const Estimate& e) {
-            text += ", \"" + name + "\": [" + json_figure(e.value) + ", " + json_figure(e.half_width) + "]";
+            text += ", \"" + name + "\": " + json_estimate(e);
         });
         const bool is_bounded = m.box.low.x <= m.box.high.x;
-        text +=
-            ", \"box\": " + (is_bounded ? "[" + json_point(m.box.low) + ", " + json_point(m.box.high) + "]" : "null") +
-            ", \"regions\": " + std::to_string(m.regions) + ", \"reached\": " + std::to_string(m.reached) +
-            ", \"unmet\": " + std::to_string(m.unmet) + ", \"weightless\": " + std::to_string(m.weightless) +
-            ", \"thin\": " + std::to_string(m.thin) + ", \"unmet_bound\": " + json_figure(m.unmet_bound) +
-            json_wall(m.wall) + "}";
+        text += ", \"box\": " + (is_bounded ? json_corners(m.box) : "null") +
+                ", \"regions\": " + std::to_string(m.regions) + ", \"reached\": " + std::to_string(m.reached) +
+                ", \"unmet\": " + std::to_string(m.unmet) + ", \"weightless\": " + std::to_string(m.weightless) +
+                ", \"thin\": " + std::to_string(m.thin) + ", \"unmet_bound\": " + json_figure(m.unmet_bound) +
+                json_wall(m.wall) + "}";
     }
     return text + "\n  ]\n}\n";
 }

@@ -35,6 +35,16 @@ void append_number(std::string& out, double value) {
     out.append(text, std::to_chars(text, text + sizeof text, value, std::chars_format::general, 17).ptr);
 }
 
+std::string numbers_of(const Ray& ray, const char* between) {
+    std::string text;
+    for (const double value :
+         {ray.origin.x, ray.origin.y, ray.origin.z, ray.direction.x, ray.direction.y, ray.direction.z}) {
+        if (!text.empty()) text += between;
+        append_number(text, value);
+    }
+    return text;
+}
+
 void append_name(std::string& out, std::string_view name) {
     for (char c : name) {
         auto byte = static_cast<unsigned char>(c);

@@ -34,6 +34,8 @@ private:
 
 /// Appends a number with 17 significant digits, as printf's %.17g does in the C locale.
 void append_number(std::string& out, double value);
+/// The numbers of a ray, "ox oy oz dx dy dz", or with commas.
+std::string numbers_of(const Ray& ray, const char* between);
 /// Appends a name and escapes its blanks, control characters and backslashes.
 void append_name(std::string& out, std::string_view name);
 

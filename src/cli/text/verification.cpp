@@ -20,17 +20,6 @@ const char* where_wrong(const WrongRay& ray) {
     return ray.on_device ? "device" : "reference";
 }
 
-/// The numbers of a ray, "ox oy oz dx dy dz", or with commas.
-std::string numbers_of(const Ray& ray, const char* between) {
-    std::string text;
-    for (const double value :
-         {ray.origin.x, ray.origin.y, ray.origin.z, ray.direction.x, ray.direction.y, ray.direction.z}) {
-        if (!text.empty()) text += between;
-        append_number(text, value);
-    }
-    return text;
-}
-
 std::string figure_row(const char* name, const std::string& value) {
     std::string text = name;
     text.resize(std::max<std::size_t>(text.size() + 2, 18), ' ');
