@@ -24,6 +24,7 @@
 #pragma once
 
 #include <csgrt/camera.hpp>
+#include <csgrt/check.hpp>
 #include <csgrt/device.hpp>
 #include <csgrt/edit.hpp>
 #include <csgrt/error.hpp>

@@ -10,6 +10,7 @@
 #include "help_notes.hpp"
 #include "options.hpp"
 #include "values.hpp"
+#include "form/check.hpp"
 #include "form/measure.hpp"
 
 namespace csgrt::cli {
@@ -220,6 +221,24 @@ void define(Options& options, MeasureArguments& arguments) {
     define_either(options, arguments.settings);
 }
 
+void define(Options& options, CheckArguments& arguments) {
+    define_scene(options, arguments);
+    define_members(options, arguments.request, form::Concern::work);
+    options.text("--allow", "FILE",
+                 "overlaps that are allowed: on each line two patterns of paths; * stands for any characters, and # "
+                 "begins a comment",
+                 arguments.allow);
+    options.text("--json", "FILE", "write all figures as JSON; - is standard output, instead of the table",
+                 arguments.json);
+    options.text("--junit", "FILE", "write a report for CI as JUnit's XML; - is standard output, likewise",
+                 arguments.junit);
+    options.text(
+        "--write-rays", "FILE",
+        "write for each overlap a ray that shows it, as 'csgrt shoot' reads it; - is standard output, likewise",
+        arguments.rays);
+    define_either(options, arguments.settings);
+}
+
 void define(Options& options, CompareArguments& arguments) {
     options.argument("A", "EXR picture, or partitions that 'csgrt shoot' wrote", arguments.first);
     options.argument("B", "another file of the same kind", arguments.second);
@@ -291,6 +310,7 @@ constexpr Entry entries[] = {
                            verify_notes),
     entry<MeasureArguments>("measure", "csgrt measure SCENE [OBJECT...]",
                             "volumes, masses, areas, moments, with errors", measure_notes),
+    entry<CheckArguments>("check", "csgrt check SCENE [OBJECT...]", "find regions that overlap", check_notes),
     entry<CompareArguments>("compare", "csgrt compare A B", "compare two pictures, or two files of partitions",
                             compare_notes),
     entry<DevicesArguments>("devices", "csgrt devices", "list the devices", devices_notes),

@@ -115,6 +115,25 @@ The same seed gives the same figures on every device and any number of threads, 
 Ctrl-C ends the measure. Ctrl-C prints what there is; the exit status is 130 then.
 )";
 
+inline constexpr const char* check_notes = R"(
+Two regions overlap where both claim a part of space; regions that only touch do not. The table has
+two lines for each overlap, the deepest first. The first:
+  depth mm       diameter of the largest ball that was found in it; an estimate, along rays. ~: near
+                 the limit, from half of --min-depth to twice --min-depth: another seed may decide
+                 otherwise. What is less than half as deep is only counted
+  at most        no ball in it has a larger diameter
+  volume mm^3    with half of its interval of 95 %
+  place mm       the centre of the ball; then 'allowed', or 'less deep' than --min-depth
+The second has the paths of both regions, as --allow reads them. There * stands for any characters,
+? for one, [ab] for one of several, and \ before one of these takes away its meaning. A path stands
+for all regions below it, too; a pattern with blanks stands in quotation marks; the order of the
+two does not matter. Rows that no overlap needs are told. The exit status is 8 if an overlap at
+least --min-depth deep is not allowed.
+
+The same seed gives the same figures on every device and any number of threads, unless Ctrl-C ends
+the check. Ctrl-C prints what there is; the exit status is 130 then.
+)";
+
 inline constexpr const char* compare_notes = R"(
 X is in the units of the channel or column: mm for Z, lengths of the direction for in and out, 0 to
 1 for colours, 1 for counts and numbers of regions. The exit status is 0 if nothing differs, 8 if
@@ -153,6 +172,6 @@ The scene that is written has the same geometry to the last bit, and keeps the f
 
 inline constexpr const char* exit_status =
     "\nExit status: 0 done, 2 usage, 3 scene, 4 no device, 5 out of memory, 6 file, 7 device fault,\n"
-    "8 a comparison or verification differs or a wall is too thin, 130 interrupted.\n";
+    "8 a comparison or verification differs, a wall is too thin or regions overlap, 130 interrupted.\n";
 
 }  // namespace csgrt::cli

@@ -126,6 +126,28 @@ TEST_CASE("a measure shows how its intervals shrink, and Ctrl-C prints what it h
     CHECK(contains(screen.text, "volume "));
 }
 
+TEST_CASE("a check shows what it has found, and Ctrl-C prints it", "[promise:check]") {
+    NEEDS_COMMAND();
+    const Folder folder;
+    std::string solids, regions, all;  // 512 balls, each of which overlaps its neighbours
+    for (int i = 0; i < 512; ++i) {
+        const std::string name = "\"" + std::to_string(i) + "\"";
+        const auto at = [i](int k) { return std::to_string(18 * (i / k % 8)); };
+        solids += (i ? "," : "") + name + R"(:{"type":"sphere","radius":10,"center":[)" + at(1) + "," + at(8) + "," +
+                  at(64) + "]}";
+        regions += "\"r" + name.substr(1) + ":{\"region\":true,\"tree\":" + name + "},";
+        all += (i ? ",\"r" : "\"r") + name.substr(1);
+    }
+    const std::string scene =
+        folder.write("balls.json", "{\"csgrt\":1,\"solids\":{" + solids + "},\"combinations\":{" + regions +
+                                       "\"all\":{\"tree\":{\"union\":[" + all + "]}}}}");
+    const Screen screen = run_on_terminal({"check", scene, "all", "--threads", "1"}, " rays");
+    CAPTURE(screen.text);
+    CHECK(screen.status == 130);
+    CHECK(contains(screen.text, " overlaps: "));
+    CHECK(contains(screen.text, "\nThe check was ended before it was complete.\r\n"));
+}
+
 TEST_CASE("SIGINT, SIGTERM and SIGHUP end a render, a wait for rays and a verification with 130, and leave no file",
           "[promise:interrupts]") {
     NEEDS_COMMAND();

@@ -73,6 +73,11 @@ TEST_CASE("a wrong command line is refused with what is wrong") {
         {{"measure", scene, "--rel-error", "0"}, "--rel-error: '0' is not a number greater than 0"},
         {{"measure", scene, "--time", "-1"}, "--time: '-1' is not a number of seconds, 0 or more"},
         {{"measure", scene, "--rays", "0"}, "--rays: '0' is not a whole number from 1"},
+        {{"check"}, "SCENE: missing"},
+        {{"check", scene, "--min-depth", "0"}, "--min-depth: '0' is not a length in millimetres greater than 0"},
+        {{"check", scene, "--effort", "-1"}, "--effort: '-1' is not a number greater than 0, at most 1000"},
+        {{"check", scene, "--effort", "1001"}, "--effort: '1001' is not a number greater than 0, at most 1000"},
+        {{"check", scene, "--sede", "1"}, "did you mean '--seed'?"},
         {{"verify", scene, "--precision", "quad"}, "--precision: 'quad' is not one of"},
         {{"compare", scene}, "B: missing"},
         {{"info", scene, "--depth", "many"}, "--depth: 'many'"},
@@ -186,6 +191,8 @@ TEST_CASE("help lists every option, and every option listed is understood") {
         {"measure", with_computing({"--rel-error X", "--abs-error MM3", "--time S", "--rays N", "--seed N", "--walls",
                                     "--wall-limit MM", "--grid NX,NY,NZ", "--densities FILE", "--depth N",
                                     "--json FILE", "--csv FILE", "--grid-output FILE"})},
+        {"check", with_computing({"--min-depth MM", "--effort X", "--seed N", "--allow FILE", "--json FILE",
+                                  "--junit FILE", "--write-rays FILE"})},
         {"compare", {"--tolerance X", "-h, --help"}},
         {"devices", {"-h, --help"}},
         {"info",
@@ -223,8 +230,8 @@ TEST_CASE("the name of the command render may be left out") {
     CHECK(all.out.ends_with(page.substr(page.find('\n'))));
     CHECK(run({"-h"}).out == all.out);
     CHECK(run({"help"}).out == all.out);
-    for (const char* command :
-         {"render", "view", "shoot", "sample", "verify", "measure", "compare", "devices", "info", "convert", "help"}) {
+    for (const char* command : {"render", "view", "shoot", "sample", "verify", "measure", "check", "compare", "devices",
+                                "info", "convert", "help"}) {
         CAPTURE(command);
         CHECK(contains(all.out, std::string(command) + (command == std::string("render") ? "] " : " ")));
     }

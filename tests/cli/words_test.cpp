@@ -39,12 +39,12 @@ TEST_CASE("help says the units of each command, and one example of a picture and
         CAPTURE(column);
         CHECK(contains(shoot.out, column));
     }
-    const std::pair<const char*, const char*> units[] = {{"verify", "in mm"},     {"measure", "kg mm^2"},
-                                                         {"compare", "mm for Z"}, {"devices", "GiB"},
-                                                         {"info", "millimetres"}, {"convert", "unit"}};
+    const std::pair<const char*, const char*> units[] = {
+        {"verify", "in mm"}, {"measure", "kg mm^2"},  {"check", "volume mm^3"}, {"compare", "mm for Z"},
+        {"devices", "GiB"},  {"info", "millimetres"}, {"convert", "unit"}};
     for (const auto& [command, unit] : units) CHECK(contains(run({"help", command}).out, unit));
     for (const char* command :
-         {"", "view", "shoot", "sample", "verify", "measure", "compare", "devices", "info", "convert"}) {
+         {"", "view", "shoot", "sample", "verify", "measure", "check", "compare", "devices", "info", "convert"}) {
         const Result help = *command ? run({"help", command}) : all;
         std::istringstream lines(help.out);
         for (std::string line; std::getline(lines, line);) {

@@ -14,6 +14,7 @@
 #include "c/described.hpp"
 #include "catch.hpp"
 #include "cli/arguments.hpp"
+#include "form/check.hpp"
 #include "form/written_back.hpp"
 #include "sanitized.hpp"
 
@@ -300,11 +301,11 @@ std::string settings_page() {
            list<Camera>("csgrt::Camera") + list<Fields>("csgrt::Fields") + list<RayRange>("csgrt::RayRange") +
            list<Slice>("csgrt::Slice") + list<RegionInfo>("csgrt::RegionInfo") + list<SolidInfo>("csgrt::SolidInfo") +
            list<ChildInfo>("csgrt::ChildInfo") + list<MeasureRequest>("csgrt::MeasureRequest") +
-           list<DeviceInfo>("csgrt::DeviceInfo") + list<Statistics>("csgrt::Statistics") +
-           "## Names and their numbers\n\n" + names_line("Precision", every_precision) +
-           names_line("Tolerance", every_tolerance) + names_line("Light", lighting_names) +
-           names_line("State", state_names) + names_line("Fastgen", fastgen_names) +
-           names_line("Operator", operator_names) +
+           list<CheckRequest>("csgrt::CheckRequest") + list<DeviceInfo>("csgrt::DeviceInfo") +
+           list<Statistics>("csgrt::Statistics") + "## Names and their numbers\n\n" +
+           names_line("Precision", every_precision) + names_line("Tolerance", every_tolerance) +
+           names_line("Light", lighting_names) + names_line("State", state_names) +
+           names_line("Fastgen", fastgen_names) + names_line("Operator", operator_names) +
            names_line("Channels, whose sum is what a picture has", channel_names) +
            names_line("Status, which is the command's, too", status_names);
 }
@@ -444,6 +445,7 @@ TEST_CASE("each sentence stands in the C++ header") {
     require_sentences<DeviceInfo>("include/csgrt/device.hpp");
     require_sentences<Statistics>("include/csgrt/statistics.hpp");
     require_sentences<MeasureRequest>("include/csgrt/measure.hpp");
+    require_sentences<CheckRequest>("include/csgrt/check.hpp");
 }
 
 TEST_CASE("C's structs and docs/settings.md are made of the descriptions") {

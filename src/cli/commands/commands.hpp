@@ -9,6 +9,7 @@
 #include <variant>
 #include <vector>
 
+#include <csgrt/check.hpp>
 #include <csgrt/measure.hpp>
 #include <csgrt/renderer.hpp>
 #include <csgrt/scene_io.hpp>
@@ -77,6 +78,12 @@ struct MeasureArguments : SceneArguments {
     std::vector<std::string> cells;  ///< files
 };
 
+struct CheckArguments : SceneArguments {
+    CheckRequest request;
+    std::string allow;              ///< file or empty
+    std::string json, junit, rays;  ///< file, "-" or empty
+};
+
 struct CompareArguments {
     std::string first, second;
     std::optional<double> tolerance;  ///< absent: files are compared bit by bit
@@ -101,16 +108,17 @@ struct TextArguments {
 
 using Command =
     std::variant<RenderArguments, ViewArguments, ShootArguments, SampleArguments, VerifyArguments, MeasureArguments,
-                 CompareArguments, DevicesArguments, InfoArguments, ConvertArguments, TextArguments>;
+                 CheckArguments, CompareArguments, DevicesArguments, InfoArguments, ConvertArguments, TextArguments>;
 
-// Each returns Status::ok; `compare`, `verify` and `measure` may also return Status::differs. Every other failure is an
-// Error.
+// Each returns Status::ok; `compare`, `verify`, `measure` and `check` may also return Status::differs, the last two
+// Status::interrupted. Every other failure is an Error.
 Status run(const RenderArguments& arguments);
 Status run(const ViewArguments& arguments);
 Status run(const ShootArguments& arguments);
 Status run(const SampleArguments& arguments);
 Status run(const VerifyArguments& arguments);
 Status run(const MeasureArguments& arguments);
+Status run(const CheckArguments& arguments);
 Status run(const CompareArguments& arguments);
 Status run(const DevicesArguments& arguments);
 Status run(const InfoArguments& arguments);

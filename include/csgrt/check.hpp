@@ -1,0 +1,111 @@
+// Check: pairs of regions that overlap, each with its place, its depth and a ray that shows it.
+//
+//     csgrt::Checker checker(csgrt::Model(scene));
+//     for (const csgrt::FoundOverlap& o : checker.check({.min_depth = 0.1}).overlaps)
+//         std::printf("%u %u: %g mm deep\n", o.regions[0], o.regions[1], o.depth);
+//
+// Two regions overlap where both claim a part of a ray and neither gives way by its rank (Overlap). Candidates are the
+// pairs whose boxes overlap. Rays through the whole model find most overlaps; then each other candidate's common box is
+// searched in cells, which are divided where both regions were seen, first where they were seen nearest to each other.
+// Random numbers are functions of the seed, and decisions have a fixed order: all devices and numbers of threads give
+// the same bits.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <csgrt/measure.hpp>
+#include <csgrt/model.hpp>
+#include <csgrt/renderer.hpp>
+#include <csgrt/settings.hpp>
+
+namespace csgrt {
+
+/// A pair of regions that may overlap, by patterns of their paths: * stands for any characters, and a path stands for
+/// all regions below it, too. The order of the two does not matter.
+struct AllowedOverlap {
+    std::string first = {}, second = {};
+};
+
+/// Reads a list of allowed overlaps: on each line two patterns of paths, separated by spaces or tabs; # begins a
+/// comment. A pattern with spaces stands in quotation marks. Throws Error: file, scene (with the line).
+CSGRT_API std::vector<AllowedOverlap> load_allowed_overlaps(const std::string& path);
+
+/// What a check looks for.
+struct CheckRequest {
+    /// Millimetres: the diameter of the largest ball in an overlap from which on it counts.
+    double min_depth = 0.01;
+    /// How many times the usual number of cells of a candidate are searched.
+    double effort = 1;
+    /// Seed of the random numbers.
+    std::uint64_t seed = 1;
+    /// Pairs of regions whose overlaps are allowed.
+    std::vector<AllowedOverlap> allowed = {};
+
+    static constexpr double most_effort = 1000;
+};
+
+/// An overlap of two regions.
+struct FoundOverlap {
+    std::array<std::uint32_t, 2> regions = {};  ///< indices into Model::regions(), ascending: the first one owns it
+    Vec3 place = {};                            ///< Millimetres: the centre of the largest ball that was found in it.
+    /// Millimetres: the diameter of the largest ball that was found in it, measured along rays. An estimate.
+    double depth = 0;
+    double depth_at_most = 0;    ///< Millimetres: no ball in it has a larger diameter.
+    Estimate volume = {};        ///< mm³
+    Box box = {};                ///< Millimetres: of the parts of rays that both claim.
+    Ray ray = {};                ///< The ray, through the place, that shows it.
+    double t_in = 0, t_out = 0;  ///< Millimetres along the ray.
+    bool is_allowed = false;     ///< by CheckRequest::allowed
+    /// Whether it is between half of the least depth and twice the least depth: another seed may decide otherwise.
+    bool is_near_limit = false;
+};
+
+/// The findings of a check.
+struct CheckResult {
+    std::vector<FoundOverlap> overlaps = {};  ///< at least half of the least depth deep, the deepest first
+    std::vector<AllowedOverlap> unused = {};  ///< rows of CheckRequest::allowed that no overlap needs
+    /// Indices of regions without an end. Only their parts within the box of all others were searched.
+    std::vector<std::uint32_t> unbounded = {};
+    std::uint64_t candidates = 0;  ///< pairs of regions whose boxes overlap
+    std::uint64_t shallow = 0;     ///< pairs that overlap by less than half of the least depth
+    std::uint64_t rays = 0;        ///< traced in all
+    /// False: look() or Settings::progress has ended the check. Depths that are not known then are 0.
+    bool is_complete = true;
+    double seconds = 0;  ///< time that the call took
+
+    /// Number of overlaps that are not allowed and deep enough.
+    std::uint64_t new_overlaps(double min_depth) const {
+        std::uint64_t count = 0;
+        for (const FoundOverlap& o : overlaps) count += !o.is_allowed && o.depth >= min_depth;
+        return count;
+    }
+};
+
+/// Searches a model for overlaps. Not copyable. One thread at a time.
+class CSGRT_API Checker {
+public:
+    /// Throws as Renderer does.
+    explicit Checker(Model model, const Settings& settings = {});
+    ~Checker();
+    Checker(Checker&&) noexcept;
+    Checker& operator=(Checker&&) noexcept;
+
+    /// Searches. Calls look(result so far), whose overlaps have no depths yet, between parts of the work; if it returns
+    /// false, or Settings::progress ends a call, the check ends with what it has. Throws Error: usage, out_of_memory,
+    /// device_fault.
+    CheckResult check(const CheckRequest& request = {}, const std::function<bool(const CheckResult&)>& look = {});
+
+    /// The Renderer that traces, for its model, statistics and warnings. Valid as long as the Checker.
+    const Renderer& renderer() const;
+
+private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace csgrt
