@@ -166,7 +166,7 @@ struct Measurer::Impl {
     std::uint64_t traced = 0;
     Clock::time_point start, looked;
     bool is_cut = false;
-    std::vector<Ray> list;  ///< rays that are traced at once
+    std::vector<Ray> shots;  ///< rays that are traced at once
     std::vector<RayRange> ranges;
     Partitions rows;
 
@@ -332,18 +332,18 @@ void Measurer::Impl::flush(std::vector<Piece>& pieces, std::vector<Grid>& all_gr
         firsts.push_back(count);
         count += p.kept.size();
     }
-    list.resize(count);
+    shots.resize(count);
     ranges.resize(count);
     for_chunks(pieces.size(), few, threads, [&](std::size_t first, std::size_t last, std::size_t) {
         for (std::size_t i = first; i < last; ++i) {
             const Grid& grid = all_grids[pieces[i].grid];
             for (std::size_t k = 0; k < pieces[i].kept.size(); ++k) {
-                list[firsts[i] + k] = grid.ray(pieces[i].first + pieces[i].kept[k]);
+                shots[firsts[i] + k] = grid.ray(pieces[i].first + pieces[i].kept[k]);
                 ranges[firsts[i] + k] = {0, grid.length};
             }
         }
     });
-    renderer.partitions(list, rows, {.solids = request.walls, .normals = true, .overlaps = true}, {.each = ranges});
+    renderer.partitions(shots, rows, {.solids = request.walls, .normals = true, .overlaps = true}, {.each = ranges});
     traced += count;
     std::vector<std::vector<Found>> found(pieces.size());
     // The lengths in cells of one piece may take 60 MB.

@@ -132,7 +132,7 @@ export function draw_answer() {
     ["point", numbers(point)],
     ["distance", `${number(answer.t)} from the ray's start`], ...!answer.normal ? [] :
       [["normal", numbers(answer.normal, 5)],
-       ["ray to normal", `${number(angle_of(answer), 3)} degrees: thicknesses below are along the ray`]]]]);
+       ["ray to normal", `${number(angle_of(answer), 3)} degrees; the bar's lengths are along the ray`]]]]);
   by("along-normal").hidden = !answer.normal;
   const apart = point && previous ? minus(point, previous.point) : null;
   by("measure").hidden = !apart;

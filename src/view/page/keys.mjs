@@ -26,7 +26,16 @@ const moving = move => (event, key) => {
   move(key);
   changed(event, true);
 };
-const toggle_perspective = event => set_camera({perspective: view.camera.perspective ? 0 : 30}, event);
+let perspective = 30;  // of the camera before it was parallel
+function toggle_perspective(event) {
+  const present = view.camera.perspective;
+  perspective = present || perspective;
+  set_camera({perspective: present ? 0 : perspective}, event);
+}
+function show_help() {
+  by("help").showModal();
+  by("help").scrollTop = 0;  // the focus is on the button at the end
+}
 export const with_selected = run => event => selected !== null && run(selection, event);
 export const ARROWS = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1],
                 a: [-1, 0], d: [1, 0], w: [0, -1], s: [0, 1]};
@@ -39,7 +48,7 @@ export const KEYS = [
   [["7"], "top: azimuth 270, elevation 90", look_from(270, 90)],
   [["8"], "bottom: azimuth 270, elevation -90", look_from(270, -90)],
   [["9"], "iso: azimuth 35, elevation 25", look_from(35, 25)],
-  [["5"], "parallel or perspective (30 degrees)", toggle_perspective],
+  [["5"], "parallel or perspective", toggle_perspective],
   [["f", "Enter"], "fit what is shown", event => act.fit_shown(event)],
   [["e"], "edges", toggle_edges],
   [["ArrowLeft", "ArrowRight", "ArrowUp", "ArrowDown"], "turn", moving(key => {
@@ -62,7 +71,7 @@ export const KEYS = [
   [["Ctrl+z"], "undo", event => go_step(-1, event)],
   [["Ctrl+Shift+z", "Ctrl+y"], "redo", event => go_step(1, event)],
   [["/"], "search the parts", begin_search],
-  [["?"], "this list", () => by("help").showModal()],
+  [["?"], "this list", show_help],
   [["Escape"], "forget the answer and the selection, then close the panels", escape_all],
 ];
 export const MOUSE = [["drag", "turn about the point under the mouse"], ["Shift+drag, middle drag", "pan"],

@@ -51,7 +51,7 @@ export function draw_guides(camera) {
   if (sorted.some((one, i) => triad.children[i + 1] !== one.group)) triad.append(...sorted.map(one => one.group));
   const scale = h / camera.view_size, mm = round_length(0.25 * w / scale), length = mm * scale;
   bar.path.setAttribute("d", view.guides ? `M14 ${h - 20}v6h${length}v-6` : "");
-  for (const [name, value] of [["x", 18], ["y", h - 20]]) bar.text.setAttribute(name, value);
+  for (const [name, value] of [["x", 18], ["y", h - 25]]) bar.text.setAttribute(name, value);
   bar.text.textContent = view.guides ? length_text(mm) + (camera.perspective ? " at the centre" : "") : "";
 }
 /// Says what the colours of the picture mean, which has values in a range.

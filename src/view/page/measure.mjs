@@ -37,15 +37,21 @@ const row = (one, ...buttons) => el("div", {className: "line measured"},
 export function draw_measurements() {
   by("measured-title").hidden = !answer?.point;
   by("measured").replaceChildren(...measured().map(one => row(one, el("button", {textContent: "Keep",
-    ariaLabel: `Keep: ${one.what}`, onclick: event => change_kept([...kept, one], event)}))));
+    ariaLabel: `Keep: ${one.what}`, onclick: event => change_kept(is_kept(one) ? kept : [...kept, one], event)}))));
   by("kept").hidden = !kept.length;
   by("kept-rows").replaceChildren(...kept.map((one, i) => row(one, el("button", {textContent: "\u00d7", title: one.part,
     ariaLabel: `Forget: ${one.what}`, onclick: event => change_kept(kept.filter((_, k) => k !== i), event)}))));
 }
+const is_kept = one => kept.some(other => JSON.stringify(other) === JSON.stringify(one));
+/// The rows are made anew, so the focus goes to the button that is in the pressed button's place then.
 function change_kept(list, event) {
+  const rows = event.currentTarget.closest("#measured, #kept-rows");
+  const at = [...rows.querySelectorAll("button")].indexOf(event.currentTarget);
   hold_kept(list);
   remember();
   looked(event);
+  const buttons = rows.querySelectorAll("button");
+  (buttons[Math.min(at, buttons.length - 1)] ?? by("measured").querySelector("button"))?.focus();
 }
 /// The marks of what is kept, with their values, for the picture.
 export const kept_marks = camera => kept.flatMap(one => {
