@@ -44,7 +44,7 @@ install(FILES src/cli/csgrt.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-compl
 install(FILES scenes/csgrt.schema.json DESTINATION ${CMAKE_INSTALL_DATADIR}/csgrt)
 # Pages, and the files to which their links lead; tests/install_test.cmake follows each link.
 install(FILES README.md CHANGELOG.md CONTRIBUTING.md SECURITY.md LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
-foreach(folder docs docs/images scenes scenes/pictures bench bench/campaign bench/chart tests/stress
+foreach(folder docs docs/images scenes scenes/pictures bench bench/analysis bench/campaign bench/chart tests/stress
         tests/integration/truth)
     file(GLOB pages CONFIGURE_DEPENDS ${folder}/*.md ${folder}/*.png ${folder}/*.webp ${folder}/*.ipynb)
     install(FILES ${pages} DESTINATION ${CMAKE_INSTALL_DOCDIR}/${folder})

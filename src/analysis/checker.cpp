@@ -602,7 +602,7 @@ void Checker::Impl::climb(std::span<const std::size_t> which) {
         }
     }
     for (std::uint64_t round = 1; round <= rounds; ++round) {
-        shoot_lines(climbs, round, true, [](Climb& climb, std::vector<Line>& lines) {
+        shoot_lines(climbs, round, true, [round](Climb& climb, std::vector<Line>& lines) {
             double reach = nowhere;
             for (const Line& line : lines)
                 reach = std::min(reach, line.ends[0].empty() ? 0 : std::max(-line.in, line.out));
@@ -623,7 +623,8 @@ void Checker::Impl::climb(std::span<const std::size_t> which) {
             climb.normals.clear();
             for (std::size_t k = 0; k < std::min(most_normals, planes.size()); ++k)
                 climb.normals.push_back(planes[k].normal);
-            climb.point = between(near.size() > 3 ? near : planes, climb.point, 10 * reach);
+            // All planes lead to the middle of a convex overlap, those near by along a curved one.
+            climb.point = between(round % 2 == 1 || near.size() < 4 ? planes : near, climb.point, 10 * reach);
         });
     }
     for (Climb& climb : climbs) climb.point = climb.ball.center;
