@@ -52,11 +52,13 @@ public:
 
 private:
     edge_pixel values(std::size_t i) const {
-        return {.distance = distance_[i],
-                .nx = normal_[0][i],
-                .ny = normal_[1][i],
-                .nz = normal_[2][i],
-                .region = region_[i]};
+        edge_pixel pixel{};
+        pixel.distance = distance_[i];
+        pixel.nx = normal_[0][i];
+        pixel.ny = normal_[1][i];
+        pixel.nz = normal_[2][i];
+        pixel.region = region_[i];
+        return pixel;
     }
 
     std::vector<float> s_, m_, along_, right_, down_;
