@@ -361,14 +361,15 @@ class Scene(_core.Scene):
         self._commit_edits()
         self._regions = None
 
-    def undo(self) -> None:
-        """Takes the last commit back; the last 100 are kept. Raises csgrt.Error if there is none, or edits wait."""
-        self._step(True)
+    def undo(self, steps: int | None = 1) -> None:
+        """Takes the last commits back: so many, or all for None; the last 100 are kept. Raises csgrt.Error, and changes
+        nothing, if there are fewer, or none, or if edits wait."""
+        self._step(True, steps)
         self._regions = None
 
-    def redo(self) -> None:
-        """Makes the commit again that undo() took back. Raises csgrt.Error if there is none, or edits wait."""
-        self._step(False)
+    def redo(self, steps: int | None = 1) -> None:
+        """Makes commits again that undo() took back, the last one first. Raises as undo() does."""
+        self._step(False, steps)
         self._regions = None
 
     def copy(self) -> Scene:

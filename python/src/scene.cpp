@@ -162,17 +162,23 @@ public:
         edit_.reset();
     }
     /// Goes one commit back, or forward again.
-    void step(bool back) {
+    /// Goes back or forth by so many commits, or by all.
+    void step(bool back, std::optional<std::size_t> steps) {
         require_own_process();
         const auto no_measure = end_of_measure();
         nb::gil_scoped_release unlocked;
         const std::lock_guard lock(editing_);
         if (edit_) throw usage("edits wait: commit() or discard() them first");
         std::vector<Model>&from = back ? done_ : undone_, &to = back ? undone_ : done_;
-        if (from.empty()) throw usage(back ? "there is no commit to undo" : "there is no commit to redo");
-        to.push_back(renderer_->model());
-        renderer_->set_model(std::move(from.back()));
-        from.pop_back();
+        const std::string verb = back ? "undo" : "redo";
+        if (from.empty()) throw usage("there is no commit to " + verb);
+        const std::size_t count = steps.value_or(from.size());
+        if (from.size() < count) throw usage("there are only " + std::to_string(from.size()) + " commits to " + verb);
+        for (std::size_t i = 0; i < count; ++i) {
+            to.push_back(renderer_->model());
+            renderer_->set_model(std::move(from.back()));
+            from.pop_back();
+        }
     }
 
     Verification verify(std::size_t rays, std::uint64_t seed) {

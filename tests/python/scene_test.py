@@ -182,6 +182,12 @@ def test_commits_are_undone_and_done_again(operators):
     for picture in pictures[1:]:
         operators.redo()
         assert (operators.render(32, 32).color == picture).all()
+    with pytest.raises(csgrt.Error, match="only 4 commits"):
+        operators.undo(5)
+    operators.undo(None)
+    assert (operators.render(32, 32).color == pictures[0]).all()
+    operators.redo(4)
+    assert (operators.render(32, 32).color == pictures[-1]).all()
     operators.undo()
     operators["lamp"].color = (1, 0, 0)
     with pytest.raises(csgrt.Error, match="edits wait"):
