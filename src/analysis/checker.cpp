@@ -33,10 +33,10 @@ constexpr std::uint64_t views = 3;        ///< turned frames of rays through the
 
 // Cells have side x side rays along each axis, and are larger than their share of the box. After the levels at which
 // all cells are divided, a level has few cells of each pair; of those in which the two touch, fewer.
-constexpr std::uint32_t side = 4, cell_rays = 3 * side * side;
+constexpr std::uint32_t side = 5, cell_rays = 3 * side * side;
 constexpr double enlarged = 1.4;
-constexpr std::uint32_t levels = 6, levels_of_all = 1;
-constexpr double cells_a_level = 96, touching_cells_a_level = 8;
+constexpr std::uint32_t levels = 7, levels_of_all = 1;
+constexpr double cells_a_level = 192, touching_cells_a_level = 8;
 
 constexpr double rays_of_overlap = 24, more_rays_of_overlap = 192;  ///< of a grid through a pair's common box
 
