@@ -310,11 +310,11 @@ def geant4(case):
     solid = made(regions[0])
 
     def measure(count, seed):
-        # Its points are the same in every call: the points after `seed` times as many are those of another seed.
+        # Points are the same in every call: the points after `seed` times as many are those of another seed.
         after, spent = timed(solid.EstimateCubicVolume, count * (seed + 1), 1e-3)
         before = solid.EstimateCubicVolume(count * seed, 1e-3) if seed else 0
         volume = (seed + 1) * after - seed * before
-        # Its layer for the area depends on the number: numbers that differ by one in a hundred.
+        # Layers for the area depend on the number, so numbers differ by one in a hundred.
         area, took = timed(solid.EstimateSurfaceArea, count + seed * count // 100, -1.0)
         return {"volume": (volume, spent / (seed + 1)), "area": (area, took)}
     measure.kept = kept

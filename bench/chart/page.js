@@ -1,4 +1,4 @@
-// What the pages of the charts share.
+// Functions that the pages of the charts share.
 const by = id => document.getElementById(id);
 const unique = list => [...new Set(list)];
 const number = (v, digits = 3) => v == null ? "-" : v === 0 ? "0" :

@@ -45,7 +45,7 @@ struct Zone {
     std::uint32_t first = 0, count = 0;
 };
 
-/// What the surfaces of a solid are to a region.
+/// The part of a solid's surfaces in a region.
 struct Surface {
     std::uint32_t region;
     bool complement, under_xor;
@@ -252,7 +252,7 @@ private:
         return true;
     }
 
-    /// What outcomes_of() says.
+    /// The outcomes of a zone (outcomes_of), noted if the surface can be its region's.
     unsigned trim(const Surface& surface, const Zone& zone) {
         ++trimmed_;
         const unsigned outcomes = outcomes_of(zone);

@@ -14,8 +14,8 @@
 // equal depth, is the pixel's. A normal form may have exponentially many products; it is made of what a ray may meet
 // only, and a ray that needs more literals than `most_literals` is given up.
 //
-// What its rules make of whole trees is counted (normal_form.cpp). It has no every partition: its faces are those where
-// a product is entered, seen from outside.
+// Rules that make products of whole trees are counted (normal_form.cpp). It has no every partition: its faces are those
+// where a product is entered, seen from outside.
 //
 // Every partition (Hable and Rossignac 2005, Blister; thesis section 2.1.2): the scene is peeled, one layer for each
 // depth that the buffer tells apart; behind each layer the parities of all solids are put into the Blists of the

@@ -33,7 +33,7 @@ using Product = std::vector<std::uint32_t>;
 bool normalize(const std::vector<LiveTrees::Node>& nodes, const LiveTrees::Root& root, std::size_t most,
                std::vector<Product>& sum);
 
-/// What Goldfeather's rules make of a whole tree (normal_form.cpp): each(product of solids, in any order), and how
+/// Rewrites a whole tree by Goldfeather's rules (normal_form.cpp): each(product of solids, in any order). Returns how
 /// often a rule was applied. Nothing: it would not end, or the region holds the empty space.
 std::optional<std::uint64_t> rewrite(const GeneralTree& tree, const std::function<void(const Product&)>& each);
 

@@ -15,7 +15,7 @@
 
 namespace csgrt::bench {
 
-/// What a method does with its kernel if that does not look for the owners of kernel 3's partitions.
+/// The work of a method with its kernel, if this does not look for the owners of kernel 3's partitions.
 class DeviceWork {
 public:
     virtual ~DeviceWork() = default;

@@ -134,7 +134,7 @@ private:
         }
     }
 
-    /// One list, or one of those for each first crossing.
+    /// Compares with the region's list, which is one, or one for each first crossing.
     void by_list(std::uint32_t region, const std::vector<Crossing>& crossings) {
         const std::uint32_t first = shared_.kept == Kept::first_list ? crossings[0].key : 0;
         std::vector<Entry>& list = lists_[std::uint64_t{region} << 32 | first];

@@ -7,8 +7,8 @@
 //     (a - b) + (c - b - d)    layers a | b and c | b, d
 //     (a + c) - b              one layer a, c | b
 //
-// What layers cannot hold: an intersection of two solids, a difference whose right side is itself a difference
-// (A - (B - C) = (A - B) + (A and C)), and xor. A region fits if its tree in positive form is a union of terms, each an
+// Layers cannot hold an intersection of two solids, a difference whose right side is itself a difference
+// (A - (B - C) = (A - B) + (A and C)), or xor. A region fits if its tree in positive form is a union of terms, each an
 // intersection of at most one positive part, which fits, with complements of solids. Here a region that does not fit is
 // refused: a ray that crosses one of its solids is given up, and counted.
 //

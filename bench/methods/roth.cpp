@@ -238,7 +238,7 @@ public:
     }
 
 private:
-    /// Of each step the least region that claims it.
+    /// Finds the least region that claims each step.
     void classify(std::uint32_t missed, std::vector<std::uint32_t>& claimed) {
         claimed.assign(events_.steps(), NONE);
         solids_.fill(events_, missed);

@@ -133,7 +133,7 @@ private:
         return own.solid == stored.solid && own.surface == stored.surface && (is_moved || same_bits(own.t, stored.t));
     }
 
-    /// Of each step the least region that claims it.
+    /// Finds the least region that claims each step.
     void classify(std::uint32_t missed, std::vector<std::uint32_t>& claimed) {
         claimed.assign(events_.steps(), NONE);
         for (std::uint32_t step = 0; step < events_.steps(); ++step) {

@@ -58,7 +58,6 @@ public:
     }
 
 private:
-    static constexpr double Vec3::*axes[] = {&Vec3::x, &Vec3::y, &Vec3::z};
     Vec3 low_;
     std::array<std::uint32_t, 3> sides_;
     std::array<double, 3> steps_ = {};

@@ -56,21 +56,25 @@ struct SharedPart {
     double in = 0, out = 0;
 };
 
+/// A part, and its ray, whose direction is a unit vector.
+struct RayPart {
+    Ray ray = {};
+    double in = 0, out = 0;
+
+    double length() const { return out - in; }
+    Vec3 middle() const { return ray.origin + 0.5 * (in + out) * ray.direction; }
+};
+
 struct Pair {
     std::uint32_t first = 0, second = 0;
     Box box = {};  ///< of both regions' boxes
     bool is_found = false;
     Box seen = {{1, 1, 1}, {-1, -1, -1}};
-    Ray ray = {};              ///< of the longest part
-    double in = 0, out = 0;    ///< of the longest part
+    RayPart chord = {};        ///< the longest one; after a climb, the longest one through the ball's centre
     double at_most = nowhere;  ///< mm: the diameter of a ball in the overlap
     std::array<double, least_batches> volumes = {};
     Ball ball = {};
-    struct Start {
-        double length = 0;
-        Vec3 middle = {};
-    };
-    std::vector<Start> starts = {};  ///< the longest part of each grid
+    std::vector<RayPart> chords = {};  ///< the longest one of each grid
 };
 
 /// A climb from one point of an overlap to a point that is as far as possible from the boundary.
@@ -78,16 +82,14 @@ struct Climb {
     std::size_t pair = 0;
     std::uint64_t number = 0;  ///< among the pair's climbs
     Vec3 point = {};
-    Ball ball = {};  ///< the largest one so far
-    Ray ray = {};    ///< the longest line through its centre
-    double in = 0, out = 0;
+    Ball ball = {};                  ///< the largest one so far
+    RayPart chord = {};              ///< the longest one through its centre
     std::vector<Vec3> normals = {};  ///< of the planes that are nearest to the point
 };
 
 /// A line through a point of an overlap: the part around the point that the pair shares.
 struct Line {
-    Ray ray = {};
-    double in = 0, out = 0;
+    RayPart chord = {};
     std::vector<Vec3> ends[2] = {};  ///< of this part, and of the lines beside it, if they are in the overlap, too
 };
 
@@ -98,8 +100,6 @@ struct Cell {
     double gap = nowhere;  ///< mm along a ray between the two regions; infinite: no ray met both
     bool is_met_by_first = false, is_met_by_second = false;
 };
-
-double Vec3::*const axes[] = {&Vec3::x, &Vec3::y, &Vec3::z};
 
 bool has_inside(const Box& box) { return box.low.x < box.high.x && box.low.y < box.high.y && box.low.z < box.high.z; }
 double least_side(const Box& box) {
@@ -121,6 +121,11 @@ void include(Box& box, const Vec3& point) {
         box.low.*axis = is_empty ? point.*axis : std::min(box.low.*axis, point.*axis);
         box.high.*axis = is_empty ? point.*axis : std::max(box.high.*axis, point.*axis);
     }
+}
+
+void include(Box& box, const Box& other) {
+    include(box, other.low);
+    include(box, other.high);
 }
 
 /// The range of a ray within a box that holds its origin, and a little more.
@@ -154,6 +159,40 @@ void divide(const Cell& cell, std::vector<Cell>& children) {
     for (const Box& box : boxes) children.push_back({.pair = cell.pair, .box = box, .gap = cell.gap});
 }
 
+/// The planes that touch the boundary where lines meet it, each through the ends of three lines that are side by side.
+std::vector<TangentPlane> planes_of(const std::vector<Line>& lines, const Vec3& point) {
+    std::vector<TangentPlane> planes;
+    for (const Line& line : lines) {
+        for (const std::vector<Vec3>& end : line.ends) {
+            if (end.size() < 3) continue;
+            const Vec3 n = cross(end[1] - end[0], end[2] - end[0]);
+            if (length(n) > 0) planes.push_back({end[0], (dot(n, end[0] - point) < 0 ? -1 : 1) / length(n) * n});
+        }
+    }
+    std::ranges::stable_sort(planes, {}, [&](const TangentPlane& p) { return p.distance(point); });
+    return planes;
+}
+
+/// The planes that the point is in front of: the nearest point of the plane is near the point where it touches. Others
+/// tell nothing of the boundary near by, if this is concave.
+std::vector<TangentPlane> faced(std::vector<TangentPlane> planes, const Vec3& point) {
+    std::erase_if(planes, [&](const TangentPlane& p) { return p.distance(point) < 0.5 * length(p.point - point); });
+    return planes;
+}
+
+/// The radius of a ball around the point that meets none of the planes, nor the ends of the lines.
+double radius_of(const std::vector<TangentPlane>& planes, const std::vector<Line>& lines, const Vec3& point) {
+    double radius = nearest(planes, point);
+    for (const Line& line : lines) radius = std::min({radius, -line.chord.in, line.chord.out});
+    return radius;
+}
+
+/// Keeps the normals of the nearest planes as directions of the climb's next lines.
+void keep_normals(Climb& climb, const std::vector<TangentPlane>& planes) {
+    climb.normals.clear();
+    for (std::size_t k = 0; k < std::min(most_normals, planes.size()); ++k) climb.normals.push_back(planes[k].normal);
+}
+
 }  // namespace
 
 struct Checker::Impl {
@@ -169,7 +208,6 @@ struct Checker::Impl {
     std::vector<std::uint32_t> unbounded;                    ///< regions
     std::function<bool(const CheckResult&)> look;
     std::uint64_t traced = 0;
-    bool is_complete = true;
     Clock::time_point began, looked;
 
     // Rays that are traced at once, and their answer.
@@ -182,21 +220,29 @@ struct Checker::Impl {
         rays.push_back({origin, direction});
         ranges.push_back(range);
     }
+    void add_rays(const Grid& grid) {
+        for (std::uint64_t i = 0; i < grid.size(); ++i)
+            if (const Ray ray = grid.ray(i); grid.meets(ray)) add_ray(ray.origin, ray.direction, {0, grid.length});
+    }
+    void drop_rays() {
+        rays.clear();
+        ranges.clear();
+    }
     void trace();
     void shared_parts(std::size_t ray, std::vector<SharedPart>& parts) const;
     void take_sights();
     void shoot_model();
     void look_at(Cell& cell, std::size_t first_ray) const;
     /// Whether a part was found that is as long as a ball of the least depth would show.
-    bool is_done(const Pair& pair) const { return pair.is_found && pair.out - pair.in >= request.min_depth; }
+    bool is_done(const Pair& pair) const { return pair.is_found && pair.chord.length() >= request.min_depth; }
     void search_cells();
     void measure(std::span<const std::size_t> which, double rays_of_grid);
-    std::vector<Climb> starts_of(std::size_t number);
+    std::vector<Climb> starts_of(std::size_t number) const;
     void shoot_lines(std::vector<Climb>& climbs, std::uint64_t round, bool beside,
                      const std::function<void(Climb&, std::vector<Line>&)>& take);
     void climb(std::span<const std::size_t> which);
     bool allows(const AllowedOverlap& row, const Pair& pair) const;
-    CheckResult result() const;
+    CheckResult result(bool is_complete) const;
 };
 
 /// Sweeps over the boxes in the order in which they begin along x.
@@ -209,8 +255,7 @@ void Checker::Impl::find_candidates() {
     for (const RegionInfo& region : model.regions()) {
         boxes.push_back(region.bounds);
         if (!has_inside(region.bounds) || !is_finite(region.bounds)) continue;
-        include(all, region.bounds.low);
-        include(all, region.bounds.high);
+        include(all, region.bounds);
     }
     std::vector<std::uint32_t> order(boxes.size()), open;
     std::iota(order.begin(), order.end(), 0);
@@ -239,10 +284,7 @@ void Checker::Impl::trace() {
     traced += rays.size();
     if (!look || Clock::now() - looked < between_looks) return;
     looked = Clock::now();
-    is_complete = false;
-    const bool goes_on = look(result());
-    is_complete = true;
-    if (!goes_on) throw Error(Status::interrupted, "interrupted");
+    if (!look(result(false))) throw Error(Status::interrupted, "interrupted");
 }
 
 /// The parts of a ray that two regions share. A part may be several overlaps, if a third region begins or ends in it.
@@ -289,11 +331,9 @@ void Checker::Impl::take_sights() {
             const auto& [origin, d] = rays[ray];
             include(pair.seen, origin + shared.in * d);
             include(pair.seen, origin + shared.out * d);
-            if (pair.is_found && shared.out - shared.in <= pair.out - pair.in) continue;
+            if (pair.is_found && shared.out - shared.in <= pair.chord.length()) continue;
             pair.is_found = true;
-            pair.ray = rays[ray];
-            pair.in = shared.in;
-            pair.out = shared.out;
+            pair.chord = {rays[ray], shared.in, shared.out};
         }
     }
 }
@@ -301,17 +341,13 @@ void Checker::Impl::take_sights() {
 void Checker::Impl::shoot_model() {
     Box box = {{1, 1, 1}, {-1, -1, -1}};
     for (const Pair& pair : pairs) {
-        include(box, pair.box.low);
-        include(box, pair.box.high);
+        include(box, pair.box);
     }
     if (pairs.empty()) return;
     for (std::uint64_t view = 0; view < views; ++view) {
         Random random{request.seed, 0, view};
-        rays.clear();
-        ranges.clear();
-        for (const Grid& grid : grids_of(box, rays_of_model, random))
-            for (std::uint64_t i = 0; i < grid.size(); ++i)
-                if (const Ray ray = grid.ray(i); grid.meets(ray)) add_ray(ray.origin, ray.direction, {0, grid.length});
+        drop_rays();
+        for (const Grid& grid : grids_of(box, rays_of_model, random)) add_rays(grid);
         trace();
         take_sights();
     }
@@ -431,8 +467,8 @@ void Checker::Impl::measure(std::span<const std::size_t> which, double rays_of_g
     const auto flush = [&] {
         if (rays.empty()) return;
         trace();
-        std::vector<double> sums(jobs.size()), longest(jobs.size());
-        std::vector<Vec3> middles(jobs.size());
+        std::vector<double> sums(jobs.size());
+        std::vector<RayPart> longest(jobs.size());
         for_chunks(jobs.size(), 8, threads, [&](std::size_t i, std::size_t last, std::size_t) {
             std::vector<SharedPart> parts;
             for (; i < last; ++i)
@@ -441,37 +477,33 @@ void Checker::Impl::measure(std::span<const std::size_t> which, double rays_of_g
                     for (const SharedPart& shared : parts) {
                         if (shared.pair != jobs[i].pair) continue;
                         sums[i] += shared.out - shared.in;
-                        if (shared.out - shared.in <= longest[i]) continue;
-                        longest[i] = shared.out - shared.in;
-                        middles[i] = rays[ray].origin + 0.5 * (shared.in + shared.out) * rays[ray].direction;
+                        if (shared.out - shared.in > longest[i].length())
+                            longest[i] = {rays[ray], shared.in, shared.out};
                     }
                 }
         });
         for (std::size_t i = 0; i < jobs.size(); ++i) {
             Pair& pair = pairs[jobs[i].pair];
             pair.volumes[jobs[i].replicate] += jobs[i].by * sums[i];
-            if (longest[i] > 0) pair.starts.push_back({longest[i], middles[i]});
-            pair.at_most = std::min(pair.at_most, std::sqrt(longest[i] * longest[i] + jobs[i].diagonal));
+            const double length = longest[i].length();
+            if (length > 0) pair.chords.push_back(longest[i]);
+            pair.at_most = std::min(pair.at_most, std::sqrt(length * length + jobs[i].diagonal));
         }
         take_sights();
-        rays.clear();
-        ranges.clear();
+        drop_rays();
         jobs.clear();
     };
-    rays.clear();
-    ranges.clear();
+    drop_rays();
     for (const std::size_t i : which) {
         pairs[i].at_most = std::min(pairs[i].at_most, least_side(pairs[i].box));
         pairs[i].volumes = {};
-        pairs[i].starts.clear();
+        pairs[i].chords.clear();
         for (std::uint32_t replicate = 0; replicate < least_batches; ++replicate) {
             Random random{request.seed,    2,         pairs[i].first,
                           pairs[i].second, replicate, static_cast<std::uint64_t>(rays_of_grid)};
             for (const Grid& grid : grids_of(pairs[i].box, rays_of_grid, random)) {
                 const std::size_t first = rays.size();
-                for (std::uint64_t k = 0; k < grid.size(); ++k)
-                    if (const Ray ray = grid.ray(k); grid.meets(ray))
-                        add_ray(ray.origin, ray.direction, {0, grid.length});
+                add_rays(grid);
                 const double diagonal = dot(grid.right, grid.right) + dot(grid.up, grid.up);
                 jobs.push_back({i, replicate, grid.cell / 3, diagonal, first, rays.size()});
             }
@@ -482,17 +514,16 @@ void Checker::Impl::measure(std::span<const std::size_t> which, double rays_of_g
 }
 
 /// The points from which a pair's climbs begin: middles of long parts that are not near each other.
-std::vector<Climb> Checker::Impl::starts_of(std::size_t number) {
-    Pair& pair = pairs[number];
+std::vector<Climb> Checker::Impl::starts_of(std::size_t number) const {
+    std::vector<RayPart> chords = pairs[number].chords;
+    chords.insert(chords.begin(), pairs[number].chord);
+    std::ranges::stable_sort(chords, std::greater{}, &RayPart::length);
     std::vector<Climb> climbs;
-    pair.starts.insert(pair.starts.begin(),
-                       {pair.out - pair.in, pair.ray.origin + 0.5 * (pair.in + pair.out) * pair.ray.direction});
-    std::ranges::stable_sort(pair.starts, std::greater{}, &Pair::Start::length);
-    for (const Pair::Start& start : pair.starts) {
+    for (const RayPart& chord : chords) {
+        const auto is_near = [&](const Climb& c) { return length(c.point - chord.middle()) < 0.25 * chord.length(); };
         if (climbs.size() == starts) break;
-        if (std::ranges::none_of(climbs,
-                                 [&](const Climb& c) { return length(c.point - start.middle) < 0.25 * start.length; }))
-            climbs.push_back({.pair = number, .number = climbs.size(), .point = start.middle});
+        if (std::ranges::none_of(climbs, is_near))
+            climbs.push_back({.pair = number, .number = climbs.size(), .point = chord.middle()});
     }
     return climbs;
 }
@@ -504,8 +535,7 @@ void Checker::Impl::shoot_lines(std::vector<Climb>& climbs, std::uint64_t round,
     const std::size_t group = beside ? 3 : 1;
     std::vector<std::size_t> firsts;
     for (std::size_t begin = 0, end = 0; begin < climbs.size(); begin = end) {
-        rays.clear();
-        ranges.clear();
+        drop_rays();
         firsts.assign(1, 0);
         for (; end < climbs.size() && rays.size() < rays_at_once; ++end) {
             const Climb& climb = climbs[end];
@@ -518,7 +548,7 @@ void Checker::Impl::shoot_lines(std::vector<Climb>& climbs, std::uint64_t round,
                     for (int z = -1; z <= 1; ++z)
                         if (9 * x + 3 * y + z > 0)
                             directions.push_back(unit(x * frame[0] + y * frame[1] + z * frame[2]));
-            const double step = 1e-4 * std::max(climb.ball.radius, 1e-3 * (pair.out - pair.in));
+            const double step = 1e-4 * std::max(climb.ball.radius, 1e-3 * pair.chord.length());
             for (const Vec3& d : directions) {
                 const RayRange range = within(pair.box, climb.point, d);
                 add_ray(climb.point, d, range);
@@ -536,16 +566,17 @@ void Checker::Impl::shoot_lines(std::vector<Climb>& climbs, std::uint64_t round,
             for (; i < last; ++i) {
                 lines.clear();
                 for (std::size_t ray = firsts[i]; ray < firsts[i + 1]; ray += group) {
-                    Line line{.ray = rays[ray]};
+                    Line line{.chord = {rays[ray], 0, 0}};
                     for (std::size_t k = 0; k < group; ++k) {
                         shared_parts(ray + k, parts);
                         const auto here = std::ranges::find_if(parts, [&](const SharedPart& p) {
                             return p.pair == climbs[begin + i].pair && p.in <= 0 && p.out >= 0;
                         });
                         if (here == parts.end()) break;
-                        if (k == 0) line.in = here->in, line.out = here->out;
-                        line.ends[0].push_back(rays[ray + k].origin + here->in * line.ray.direction);
-                        line.ends[1].push_back(rays[ray + k].origin + here->out * line.ray.direction);
+                        const auto& [origin, d] = rays[ray + k];
+                        if (k == 0) line.chord = {rays[ray], here->in, here->out};
+                        line.ends[0].push_back(origin + here->in * d);
+                        line.ends[1].push_back(origin + here->out * d);
                     }
                     lines.push_back(line);
                 }
@@ -555,42 +586,13 @@ void Checker::Impl::shoot_lines(std::vector<Climb>& climbs, std::uint64_t round,
     }
 }
 
-/// The planes that touch the boundary where lines meet it, each through the ends of three lines that are side by side.
-std::vector<TangentPlane> planes_of(const std::vector<Line>& lines, const Vec3& point) {
-    std::vector<TangentPlane> planes;
-    for (const Line& line : lines) {
-        for (const std::vector<Vec3>& end : line.ends) {
-            if (end.size() < 3) continue;
-            const Vec3 n = cross(end[1] - end[0], end[2] - end[0]);
-            if (length(n) > 0) planes.push_back({end[0], (dot(n, end[0] - point) < 0 ? -1 : 1) / length(n) * n});
-        }
-    }
-    std::ranges::stable_sort(planes, {}, [&](const TangentPlane& p) { return p.distance(point); });
-    return planes;
-}
-
-/// The planes that the point is in front of: the nearest point of the plane is near the point where it touches. Others
-/// tell nothing of the boundary near by, if this is concave.
-std::vector<TangentPlane> faced(std::vector<TangentPlane> planes, const Vec3& point) {
-    std::erase_if(planes, [&](const TangentPlane& p) { return p.distance(point) < 0.5 * length(p.point - point); });
-    return planes;
-}
-
-/// The radius of a ball around the point that meets none of the planes, nor the ends of the lines.
-double radius_of(const std::vector<TangentPlane>& planes, const std::vector<Line>& lines, const Vec3& point) {
-    double radius = nearest(planes, point);
-    for (const Line& line : lines) radius = std::min({radius, -line.in, line.out});
-    return radius;
-}
-
 /// Finds the deepest point of each overlap. Lines give planes that touch the boundary, and the next point of a climb is
 /// as far as possible from all of them.
 void Checker::Impl::climb(std::span<const std::size_t> which) {
     std::vector<Climb> all, climbs;
     for (const std::size_t i : which) std::ranges::move(starts_of(i), std::back_inserter(all));
     shoot_lines(all, 0, false, [](Climb& climb, std::vector<Line>& lines) {
-        climb.ball = {climb.point, nowhere};
-        for (const Line& line : lines) climb.ball.radius = std::min({climb.ball.radius, -line.in, line.out});
+        climb.ball = {climb.point, radius_of({}, lines, climb.point)};
     });
     for (std::size_t first = 0, end = 0; first < all.size(); first = end) {
         while (end < all.size() && all[end].pair == all[first].pair) ++end;
@@ -605,7 +607,7 @@ void Checker::Impl::climb(std::span<const std::size_t> which) {
         shoot_lines(climbs, round, true, [round](Climb& climb, std::vector<Line>& lines) {
             double reach = nowhere;
             for (const Line& line : lines)
-                reach = std::min(reach, line.ends[0].empty() ? 0 : std::max(-line.in, line.out));
+                reach = std::min(reach, line.ends[0].empty() ? 0 : std::max(-line.chord.in, line.chord.out));
             if (reach == 0) {  // outside: back towards the last point that was inside
                 climb.point = 0.5 * (climb.point + climb.ball.center);
                 return;
@@ -615,14 +617,10 @@ void Checker::Impl::climb(std::span<const std::size_t> which) {
             const std::vector<TangentPlane> near = faced(planes, climb.point);
             if (const double radius = radius_of(near, lines, climb.point); radius > climb.ball.radius) {
                 climb.ball = {climb.point, radius};
-                const Line& longest = *std::ranges::max_element(lines, {}, [](const Line& l) { return l.out - l.in; });
-                climb.ray = longest.ray;
-                climb.in = longest.in;
-                climb.out = longest.out;
+                climb.chord =
+                    std::ranges::max_element(lines, {}, [](const Line& l) { return l.chord.length(); })->chord;
             }
-            climb.normals.clear();
-            for (std::size_t k = 0; k < std::min(most_normals, planes.size()); ++k)
-                climb.normals.push_back(planes[k].normal);
+            keep_normals(climb, planes);
             // All planes lead to the middle of a convex overlap, those near by along a curved one.
             climb.point = between(round % 2 == 1 || near.size() < 4 ? planes : near, climb.point, 10 * reach);
         });
@@ -632,22 +630,18 @@ void Checker::Impl::climb(std::span<const std::size_t> which) {
         shoot_lines(climbs, round, true, [](Climb& climb, std::vector<Line>& lines) {
             const std::vector<TangentPlane> planes = planes_of(lines, climb.point);
             climb.ball.radius = std::min(climb.ball.radius, radius_of(faced(planes, climb.point), lines, climb.point));
-            climb.normals.clear();
-            for (std::size_t k = 0; k < std::min(most_normals, planes.size()); ++k)
-                climb.normals.push_back(planes[k].normal);
+            keep_normals(climb, planes);
         });
     }
     for (const Climb& climb : climbs) {
         Pair& pair = pairs[climb.pair];
         if (!(climb.ball.radius > pair.ball.radius)) continue;
         pair.ball = climb.ball;
-        pair.ray = climb.ray;
-        pair.in = climb.in;
-        pair.out = climb.out;
+        pair.chord = climb.chord;
     }
 }
 
-CheckResult Checker::Impl::result() const {
+CheckResult Checker::Impl::result(bool is_complete) const {
     CheckResult result{.unbounded = unbounded, .candidates = pairs.size(), .rays = traced, .is_complete = is_complete};
     result.seconds = std::chrono::duration<double>(Clock::now() - began).count();
     std::vector<bool> is_used(request.allowed.size());
@@ -663,11 +657,11 @@ CheckResult Checker::Impl::result() const {
                            .depth_at_most = pair.at_most,
                            .volume = estimate_of(pair.volumes),
                            .box = pair.seen,
-                           .ray = pair.ray,
-                           .t_in = pair.in,
-                           .t_out = pair.out,
+                           .ray = pair.chord.ray,
+                           .t_in = pair.chord.in,
+                           .t_out = pair.chord.out,
                            .is_near_limit = depth < 2 * request.min_depth};
-        if (!is_deep) found.place = pair.ray.origin + 0.5 * (pair.in + pair.out) * pair.ray.direction;
+        if (!is_deep) found.place = pair.chord.middle();
         for (std::size_t i = 0; i < request.allowed.size(); ++i) {
             if (!allows(request.allowed[i], pair)) continue;
             found.is_allowed = true;
@@ -710,7 +704,6 @@ CheckResult Checker::check(const CheckRequest& request, const std::function<bool
     m.request = request;
     m.look = state.of_host(look);
     m.traced = 0;
-    m.is_complete = true;
     m.began = m.looked = Clock::now();
     m.find_candidates();
     try {
@@ -726,9 +719,9 @@ CheckResult Checker::check(const CheckRequest& request, const std::function<bool
         m.climb(found);
     } catch (const Error& error) {
         if (error.status() != Status::interrupted) throw;
-        m.is_complete = false;
+        return m.result(false);
     }
-    return m.result();
+    return m.result(true);
 }
 
 }  // namespace csgrt

@@ -82,7 +82,6 @@ void estimate(std::span<const Source> regions, bool is_mass, Measured& measured)
     constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
     const Vec3 off = total.volume > 0 ? 1 / total.volume * total.first : Vec3{unknown, unknown, unknown};
     const Vec3 centroid = middle + off;
-    const double Vec3::*axes[] = {&Vec3::x, &Vec3::y, &Vec3::z};
     for (std::size_t i = 0; i < 3; ++i) {
         const double Vec3::*axis = axes[i];
         const Estimate error = mean_of(batches, [&](const Totals& t) {

@@ -65,7 +65,7 @@ struct Grid {
     /// Whether a ray of the grid meets the box.
     bool meets(const Ray& ray) const {
         double in = 0, out = length;
-        for (double Vec3::*const axis : {&Vec3::x, &Vec3::y, &Vec3::z}) {
+        for (double Vec3::*const axis : axes) {
             const double by = 1 / direction.*axis;
             const double a = (box.low.*axis - ray.origin.*axis) * by, b = (box.high.*axis - ray.origin.*axis) * by;
             in = std::max(in, std::min(a, b));

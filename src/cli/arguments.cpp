@@ -201,6 +201,10 @@ void define(Options& options, VerifyArguments& arguments) {
     define_settings(options, arguments.settings);
 }
 
+void define_json(Options& options, std::string& file) {
+    options.text("--json", "FILE", "write all figures as JSON; - is standard output, instead of the table", file);
+}
+
 void define(Options& options, MeasureArguments& arguments) {
     define_scene(options, arguments);
     define_members(options, arguments.request, form::Concern::work);
@@ -209,8 +213,7 @@ void define(Options& options, MeasureArguments& arguments) {
                  "scene (BRL-CAD's _DENSITIES) if not given",
                  arguments.densities);
     options.count("--depth", "levels of the tree in the table; 2 if not given", arguments.depth, 0, Limits::nesting);
-    options.text("--json", "FILE", "write all figures as JSON; - is standard output, instead of the table",
-                 arguments.json);
+    define_json(options, arguments.json);
     options.text("--csv", "FILE", "write all figures as CSV, a line for each part; - is standard output, likewise",
                  arguments.csv);
     options.list(
@@ -228,8 +231,7 @@ void define(Options& options, CheckArguments& arguments) {
                  "overlaps that are allowed: on each line two patterns of paths; * stands for any characters, and # "
                  "begins a comment",
                  arguments.allow);
-    options.text("--json", "FILE", "write all figures as JSON; - is standard output, instead of the table",
-                 arguments.json);
+    define_json(options, arguments.json);
     options.text("--junit", "FILE", "write a report for CI as JUnit's XML; - is standard output, likewise",
                  arguments.junit);
     options.text(

@@ -44,9 +44,9 @@ Status run(const CheckArguments& arguments) {
                                 {},
                                 "has no end: only its part within the box of the others was searched"});
         table = to_text(result, request, model, table_width());
-        json = to_json(result, request, model);
-        junit = to_junit(result, request, model, arguments.scene);
-        rays = to_rays(result, model);
+        if (!arguments.json.empty()) json = to_json(result, request, model);
+        if (!arguments.junit.empty()) junit = to_junit(result, request, model, arguments.scene);
+        if (!arguments.rays.empty()) rays = to_rays(result, model);
     }
     for (const AllowedOverlap& row : result.unused)
         if (result.is_complete)

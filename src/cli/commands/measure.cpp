@@ -68,8 +68,8 @@ Status run(const MeasureArguments& arguments) {
             return !interrupted();
         });
     }
-    write_file(arguments.json, to_json(result, request));
-    write_file(arguments.csv, to_csv(result));
+    if (!arguments.json.empty()) write_file(arguments.json, to_json(result, request));
+    if (!arguments.csv.empty()) write_file(arguments.csv, to_csv(result));
     if (!arguments.cells.empty() && result.grid.sides[0] == 0)
         refuse("--grid", "the model has no bounded region for a grid to cover", "name other objects");
     for (const std::string& file : arguments.cells) write_cells(result, file);

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "compile/regions/status_tree.hpp"
@@ -33,6 +34,11 @@ public:
     void set_scene(const CompiledScene& scene) {
         scene_ = &scene;
         tree_.reset();
+    }
+
+    /// The deep rays that were listed last.
+    std::span<const kernel::DeepRay> rays() const {
+        return std::span(listed_).first(listed_.empty() ? 0 : listed_.size() - 1);
     }
 
     std::uint64_t held() const { return rays_.size() + segments_.size() + status_.size(); }

@@ -263,9 +263,9 @@ SomeRays PartitionPass::read_deep_rays() {
     std::vector<Block> blocks;
     SomeRays deep;
     std::size_t before = 0;  // segments of the earlier blocks
-    for (std::uint32_t ray = 0; ray + 1 < offsets_.size(); ++ray) {
+    for (const kernel::DeepRay& listed : deep_rays_.rays()) {
+        const std::uint32_t ray = listed.ray;
         const std::size_t first = offsets_[ray].segments, end = offsets_[ray + 1].segments;
-        if (end - first <= DEEP_SEGMENTS) continue;
         if (blocks.empty() || first > blocks.back().end + near) {
             if (!blocks.empty()) before += blocks.back().end - blocks.back().first;
             blocks.push_back({first, end});

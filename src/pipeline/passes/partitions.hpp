@@ -73,7 +73,7 @@ public:
     /// Starts to copy the rows to the host, once their kernels are done.
     void start_copy() { rows_.start_copy(has_deep_rays_ && rows_.has_overlaps() ? read_deep_rays() : SomeRays{}); }
     RowPass& rows() { return rows_; }
-    /// Reads the results of the last trace_counted(). Waits.
+    /// Reads the results of the last trace_counted(), for the laboratory and tests. Waits.
     TracedBatch read(std::uint32_t rays);
 
     CullPass& cull() { return cull_; }
