@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "analysis/boxes.hpp"
+
 namespace csgrt::analysis {
 
 namespace {

@@ -9,6 +9,7 @@
 #include <optional>
 #include <unordered_map>
 
+#include "analysis/boxes.hpp"
 #include "analysis/cells.hpp"
 #include "analysis/estimates.hpp"
 #include "analysis/frame.hpp"
@@ -120,12 +121,6 @@ double surface_of(const Box& box) {
 bool is_empty(const Box& box) {
     return !(surface_of(box) > 0 && box.low.x <= box.high.x && box.low.y <= box.high.y && box.low.z <= box.high.z);
 }
-Box joined(const Box& a, const Box& b) {
-    if (is_empty(a)) return b;
-    if (is_empty(b)) return a;
-    return {{std::min(a.low.x, b.low.x), std::min(a.low.y, b.low.y), std::min(a.low.z, b.low.z)},
-            {std::max(a.high.x, b.high.x), std::max(a.high.y, b.high.y), std::max(a.high.z, b.high.z)}};
-}
 
 }  // namespace
 
@@ -142,7 +137,7 @@ struct Measurer::Impl {
                                                            info.path + " has no end, so it has no volume",
                                                            "name the objects to measure, without it",
                                                            {}}});
-                box = joined(box, region.box);
+                include(box, region.box);
             }
             regions.push_back(std::move(region));
         }
@@ -152,7 +147,7 @@ struct Measurer::Impl {
     Renderer& renderer;  ///< `opened`, or the caller's
     Model model;
     unsigned threads;
-    Box box = {{1, 1, 1}, {-1, -1, -1}};
+    Box box = no_box;
     std::vector<Region> regions;
 
     MeasureRequest request;
@@ -539,11 +534,11 @@ Measurement Measurer::Impl::result(bool all_parts) const {
     }
     const auto add = [&](MeasuredKind kind, std::string name, std::int32_t id,
                          const std::vector<std::size_t>& members) {
-        Measured m{.kind = kind, .name = std::move(name), .id = id, .box = {{1, 1, 1}, {-1, -1, -1}}};
+        Measured m{.kind = kind, .name = std::move(name), .id = id, .box = no_box};
         std::vector<Source> of;
         for (const std::size_t r : members) {
             of.push_back(sources[r]);
-            m.box = joined(m.box, single[r].box);
+            if (!is_empty(single[r].box)) include(m.box, single[r].box);
             m.regions += 1;
             m.reached += single[r].reached;
             m.unmet += single[r].unmet;

@@ -20,6 +20,4 @@ inline Vec3 unit(const Vec3& v) { return 1 / length(v) * v; }
 
 inline constexpr double Vec3::*axes[] = {&Vec3::x, &Vec3::y, &Vec3::z};
 
-inline Vec3 center_of(const Box& box) { return 0.5 * (box.low + box.high); }
-
 }  // namespace csgrt::analysis

@@ -1,0 +1,108 @@
+// Search for overlaps: pairs of regions, and the rays that are traced for them. Three files have its functions:
+// checker.cpp the candidates and what rays show, overlap_cells.cpp the search, overlap_depth.cpp the depths.
+#pragma once
+
+#include <csgrt/check.hpp>
+
+#include <array>
+#include <chrono>
+#include <limits>
+#include <span>
+#include <unordered_map>
+
+#include "analysis/boxes.hpp"
+#include "analysis/estimates.hpp"
+#include "analysis/frame.hpp"
+#include "analysis/inscribed_ball.hpp"
+
+namespace csgrt::analysis {
+
+using Clock = std::chrono::steady_clock;
+
+inline constexpr std::size_t rays_at_once = 1u << 18;
+inline constexpr double nowhere = std::numeric_limits<double>::infinity();
+
+/// Part of a ray that both regions of a pair claim.
+struct SharedPart {
+    std::size_t pair = 0;
+    double in = 0, out = 0;
+};
+
+/// A part, and its ray, whose direction is a unit vector.
+struct RayPart {
+    Ray ray = {};
+    double in = 0, out = 0;
+
+    double length() const { return out - in; }
+    Vec3 middle() const { return ray.origin + 0.5 * (in + out) * ray.direction; }
+};
+
+struct Pair {
+    std::uint32_t first = 0, second = 0;
+    Box box = {};  ///< of both regions' boxes
+    bool is_found = false;
+    Box seen = no_box;
+    RayPart chord = {};        ///< the longest one; after a climb, the longest one through the ball's centre
+    double at_most = nowhere;  ///< mm: the diameter of a ball in the overlap
+    std::array<double, least_batches> volumes = {};
+    Ball ball = {};
+    std::vector<RayPart> chords = {};  ///< the longest one of each grid
+};
+
+struct Cell;   // of a pair's common box
+struct Climb;  // to the deepest point of an overlap
+struct Line;   // through a point of an overlap
+
+struct OverlapSearch {
+    OverlapSearch(Model m, const Settings& settings)
+        : renderer(m, settings), model(std::move(m)), threads(settings.threads) {}
+
+    Renderer renderer;
+    Model model;
+    unsigned threads;
+
+    CheckRequest request;
+    std::vector<Pair> pairs;                                 ///< candidates
+    std::unordered_map<std::uint64_t, std::size_t> numbers;  ///< of the candidates, by their regions
+    std::vector<std::uint32_t> unbounded;                    ///< regions
+    std::function<bool(const CheckResult&)> look;
+    std::uint64_t traced = 0;
+    Clock::time_point began, looked;
+
+    // Rays that are traced at once, and their answer.
+    std::vector<Ray> rays;
+    std::vector<RayRange> ranges;
+    Partitions rows;
+
+    void find_candidates();
+    void add_ray(const Vec3& origin, const Vec3& direction, const RayRange& range) {
+        rays.push_back({origin, direction});
+        ranges.push_back(range);
+    }
+    void add_rays(const Grid& grid) {
+        for (std::uint64_t i = 0; i < grid.size(); ++i)
+            if (const Ray ray = grid.ray(i); grid.meets(ray)) add_ray(ray.origin, ray.direction, {0, grid.length});
+    }
+    void drop_rays() {
+        rays.clear();
+        ranges.clear();
+    }
+    void trace();
+    void shared_parts(std::size_t ray, std::vector<SharedPart>& parts) const;
+    void take_sights();
+    void shoot_model();
+    void look_at(Cell& cell, std::size_t first_ray) const;
+    /// Whether a part was found that is as long as a ball of the least depth would show.
+    bool is_done(const Pair& pair) const { return pair.is_found && pair.chord.length() >= request.min_depth; }
+    void search_cells();
+    void measure(std::span<const std::size_t> which, double rays_of_grid);
+    std::vector<Climb> starts_of(std::size_t number) const;
+    void shoot_lines(std::vector<Climb>& climbs, std::uint64_t round, bool beside,
+                     const std::function<void(Climb&, std::vector<Line>&)>& take);
+    void climb(std::span<const std::size_t> which);
+    bool allows(const AllowedOverlap& row, const Pair& pair) const;
+    CheckResult result(bool is_complete) const;
+    CheckResult run(const CheckRequest& wanted, std::function<bool(const CheckResult&)> on_look);
+};
+
+}  // namespace csgrt::analysis
