@@ -20,7 +20,7 @@ set(may_native device scene)  # one layer with device: it fills the table of fun
 set(may_scene formats)  # one layer with formats: a finding quotes the line of the file
 set(may_formats scene)
 set(may_verify "")  # all it needs is public
-set(may_analysis "")
+set(may_analysis compile)  # bounds of distances; all else that it needs is public
 set(may_image "")
 set(may_c "")
 set(may_view scene)  # its vectors

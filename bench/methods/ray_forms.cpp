@@ -2,6 +2,8 @@
 
 #include <map>
 
+#include "compile/bounds/distance_bounds.hpp"
+
 namespace csgrt::bench {
 namespace {
 
@@ -253,6 +255,15 @@ std::string type_without_form(const CompiledScene& scene) {
     for (const std::uint32_t type :
          {SOLID_METABALL, SOLID_MESH, SOLID_PLATE, SOLID_EXTRUDE, SOLID_REVOLVE, SOLID_CROSSED_ETO})
         if (scene.solid_types >> type & 1) return type_name(type);
+    return "";
+}
+
+std::string type_without_distance(const CompiledScene& scene) {
+    const DistanceBounds bounds(scene);
+    for (std::uint32_t i = 0; i < scene.solids.size(); ++i)
+        if (!bounds.has(i))
+            return scene.solids[i].type == SOLID_SUPERELL ? "superell with an exponent above 2"
+                                                          : type_name(scene.solids[i].type);
     return "";
 }
 

@@ -51,6 +51,8 @@ private:
 
 /// The first type of solid in the scene that has none of these forms; empty: all have.
 std::string type_without_form(const CompiledScene& scene);
+/// The first solid's type that has no bound of the distance (DistanceBounds); empty: all have.
+std::string type_without_distance(const CompiledScene& scene);
 /// As BRL-CAD and csgrt's files name the solids of a SOLID_x.
 const char* type_name(std::uint32_t type);
 

@@ -16,10 +16,11 @@
 #include <cmath>
 #include <limits>
 
-#include "distance_bounds.hpp"
+#include "compile/bounds/distance_bounds.hpp"
 #include "each_ray.hpp"
 #include "list.hpp"
 #include "ray_domain.hpp"
+#include "ray_forms.hpp"
 
 namespace csgrt::bench {
 namespace {

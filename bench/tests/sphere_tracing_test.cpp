@@ -1,10 +1,10 @@
 // Bounds of distances.
 #include <cmath>
 
-#include "bench/methods/distance_bounds.hpp"
 #include "bench/methods/ray_forms.hpp"
 #include "bench/methods/scene_rays.hpp"
 #include "catch.hpp"
+#include "compile/bounds/distance_bounds.hpp"
 #include "compile/compiled_scene.hpp"
 #include "method_solids.hpp"
 

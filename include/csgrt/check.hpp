@@ -53,8 +53,10 @@ struct CheckRequest {
 struct FoundOverlap {
     std::array<std::uint32_t, 2> regions = {};  ///< indices into Model::regions(), ascending: the first one owns it
     Vec3 place = {};                            ///< Millimetres: the centre of the largest ball that was found in it.
-    /// Millimetres: the diameter of the largest ball that was found in it, measured along rays. An estimate.
-    double depth = 0;
+    double depth = 0;                           ///< Millimetres: the diameter of the largest ball that was found in it.
+    /// Whether the ball was only measured along rays, and may be too large. Else it lies in the overlap, by the
+    /// distances from the surfaces of the regions' solids.
+    bool is_estimate = true;
     double depth_at_most = 0;    ///< Millimetres: no ball in it has a larger diameter.
     Estimate volume = {};        ///< mm³
     Box box = {};                ///< Millimetres: of the parts of rays that both claim.

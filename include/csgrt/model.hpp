@@ -20,6 +20,8 @@
 
 namespace csgrt {
 
+struct CompiledScene;  // of the library
+
 /// A list in chunks, which its copies share until one of them changes an element. So a Model shares with the Model that
 /// it was edited from what the edit left alone. Elements stay in place as long as a copy of the list does.
 template <class T>
@@ -194,6 +196,7 @@ public:
 private:
     friend class Renderer;
     friend class Edit;
+    friend const CompiledScene& compiled_scene(const Model& model);
     struct Impl;
     explicit Model(std::shared_ptr<const Impl> impl) : impl_(std::move(impl)) {}
     std::shared_ptr<const Impl> impl_;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "analysis/vector.hpp"
 
@@ -39,6 +40,24 @@ inline void include(Box& box, const Vec3& point) {
 inline void include(Box& box, const Box& other) {
     include(box, other.low);
     include(box, other.high);
+}
+
+/// The parts of a box, cut at the middle of each axis along which it is more than half as long as along its longest
+/// one.
+inline std::vector<Box> parts_of(const Box& box) {
+    const Vec3 size = box.high - box.low, middle = center_of(box);
+    const double longest = std::max({size.x, size.y, size.z});
+    std::vector<Box> parts = {box};
+    for (double Vec3::*const axis : axes) {
+        if (size.*axis <= 0.5 * longest) continue;
+        const std::size_t count = parts.size();
+        for (std::size_t i = 0; i < count; ++i) {
+            Box upper = parts[i];
+            parts[i].high.*axis = upper.low.*axis = middle.*axis;
+            parts.push_back(upper);
+        }
+    }
+    return parts;
 }
 
 }  // namespace csgrt::analysis

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <iterator>
 #include <numeric>
 
 #include <fnmatch.h>
@@ -120,10 +121,9 @@ void OverlapSearch::take_sights() {
 
 void OverlapSearch::shoot_model() {
     Box box = no_box;
-    for (const Pair& pair : pairs) {
-        include(box, pair.box);
-    }
-    if (pairs.empty()) return;
+    for (const Pair& pair : pairs)
+        if (!pair.is_shallow(request.min_depth)) include(box, pair.box);
+    if (!has_inside(box)) return;
     for (std::uint64_t view = 0; view < views; ++view) {
         Random random{request.seed, 0, view};
         drop_rays();
@@ -176,7 +176,6 @@ void OverlapSearch::measure(std::span<const std::size_t> which, double rays_of_g
     };
     drop_rays();
     for (const std::size_t i : which) {
-        pairs[i].at_most = std::min(pairs[i].at_most, least_side(pairs[i].box));
         pairs[i].volumes = {};
         pairs[i].chords.clear();
         for (std::uint32_t replicate = 0; replicate < least_batches; ++replicate) {
@@ -200,19 +199,22 @@ CheckResult OverlapSearch::result(bool is_complete) const {
     std::vector<bool> is_used(request.allowed.size());
     for (const Pair& pair : pairs) {
         if (!pair.is_found) continue;
-        const double depth = std::min(2 * pair.ball.radius, pair.at_most);
+        const Ball& ball = pair.deepest();
+        const RayPart& shown = pair.shown.length() > 0 ? pair.shown : pair.chord;
+        const double depth = std::min(2 * ball.radius, pair.at_most);
         const bool is_deep = depth >= 0.5 * request.min_depth;
         if (!is_deep) ++result.shallow;
         if (!is_deep && is_complete) continue;  // else the depth may be unknown yet
         FoundOverlap found{.regions = {pair.first, pair.second},
-                           .place = pair.ball.center,
+                           .place = ball.center,
                            .depth = depth,
+                           .is_estimate = pair.is_estimate(),
                            .depth_at_most = pair.at_most,
                            .volume = estimate_of(pair.volumes),
                            .box = pair.seen,
-                           .ray = pair.chord.ray,
-                           .t_in = pair.chord.in,
-                           .t_out = pair.chord.out,
+                           .ray = shown.ray,
+                           .t_in = shown.in,
+                           .t_out = shown.out,
                            .is_near_limit = depth < 2 * request.min_depth};
         if (!is_deep) found.place = pair.chord.middle();
         for (std::size_t i = 0; i < request.allowed.size(); ++i) {
@@ -244,18 +246,51 @@ CheckResult OverlapSearch::run(const CheckRequest& wanted, std::function<bool(co
     look = std::move(on_look);
     traced = 0;
     began = looked = Clock::now();
+    const auto lap = [&](const char* n) {
+        static double last = 0;
+        double now = double(clock()) / 1e6;
+        fprintf(stderr, "%s %.2f s, rays %zu\n", n, now - last, (size_t)traced);
+        last = now;
+    };
+    lap("begin");
     find_candidates();
+    lap("cand");
     try {
+        look_at_solids();
+        lap("solids");
+        {
+            size_t s = 0, f = 0, d = 0, u = 0;
+            for (auto& p : pairs) {
+                s += p.is_shallow(request.min_depth);
+                f += p.is_found;
+                d += is_done(p);
+                if (!is_done(p) && getenv("V"))
+                    fprintf(stderr, "%s %s found %d excluded %g at_most %g\n", model.regions()[p.first].path.c_str(),
+                            model.regions()[p.second].path.c_str(), p.is_found, p.excluded, p.at_most);
+            }
+            fprintf(stderr, "pairs %zu shallow %zu found %zu done %zu\n", pairs.size(), s, f, d);
+        }
         shoot_model();
+        lap("model");
         search_cells();
+        lap("cells");
         std::vector<std::size_t> found;
         for (std::size_t i = 0; i < pairs.size(); ++i)
-            if (pairs[i].is_found) found.push_back(i);
+            if (pairs[i].is_found && !pairs[i].is_shallow(request.min_depth)) found.push_back(i);
         measure(found, rays_of_overlap);
+        lap("measure");
         climb(found);
-        std::erase_if(found, [&](std::size_t i) { return pairs[i].ball.radius >= request.min_depth; });
-        measure(found, more_rays_of_overlap);
-        climb(found);
+        lap("climb");
+        std::vector<std::size_t> shallow;
+        std::ranges::copy_if(found, std::back_inserter(shallow), [&](std::size_t i) {
+            return !pairs[i].is_settled() && pairs[i].deepest().radius < request.min_depth;
+        });
+        measure(shallow, more_rays_of_overlap);
+        lap("measure2");
+        climb(shallow);
+        lap("climb2");
+        show(found);
+        lap("show");
     } catch (const Error& error) {
         if (error.status() != Status::interrupted) throw;
         return result(false);

@@ -19,6 +19,8 @@ struct Ball {
 /// A plane that touches a body: a point and the unit vector away from the body.
 struct TangentPlane {
     Vec3 point = {}, normal = {};
+    bool is_near = true;   ///< no other part of the boundary takes its place near the point that it was made for
+    bool is_sure = false;  ///< the body near that point lies behind it
 
     double distance(const Vec3& from) const { return dot(normal, point - from); }
 };
@@ -27,6 +29,13 @@ inline double nearest(const std::vector<TangentPlane>& planes, const Vec3& from)
     double least = std::numeric_limits<double>::infinity();
     for (const TangentPlane& plane : planes) least = std::min(least, plane.distance(from));
     return least;
+}
+
+/// The planes that the point is in front of: the nearest point of the plane is near the point where it touches. Others
+/// tell nothing of the boundary near by, if this is concave.
+inline std::vector<TangentPlane> faced(std::vector<TangentPlane> planes, const Vec3& point) {
+    std::erase_if(planes, [&](const TangentPlane& p) { return p.distance(point) < 0.5 * length(p.point - point); });
+    return planes;
 }
 
 /// Moves a point between planes to where the nearest plane is as far as possible, but no farther than `reach`. The

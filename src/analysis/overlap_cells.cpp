@@ -24,23 +24,6 @@ constexpr double enlarged = 1.4;
 constexpr std::uint32_t levels = 7, levels_of_all = 1;
 constexpr double cells_a_level = 192, touching_cells_a_level = 8;
 
-/// Cuts a cell at the middle of each axis along which it is more than half as long as along its longest axis.
-void divide(const Cell& cell, std::vector<Cell>& children) {
-    const Vec3 size = cell.box.high - cell.box.low, middle = center_of(cell.box);
-    const double longest = std::max({size.x, size.y, size.z});
-    std::vector<Box> boxes = {cell.box};
-    for (double Vec3::*const axis : axes) {
-        if (size.*axis <= 0.5 * longest) continue;
-        const std::size_t count = boxes.size();
-        for (std::size_t i = 0; i < count; ++i) {
-            Box upper = boxes[i];
-            boxes[i].high.*axis = upper.low.*axis = middle.*axis;
-            boxes.push_back(upper);
-        }
-    }
-    for (const Box& box : boxes) children.push_back({.pair = cell.pair, .box = box, .gap = cell.gap});
-}
-
 }  // namespace
 
 /// Looks at the rays of a cell: which regions they meet, and how near to each other.
@@ -133,7 +116,8 @@ void OverlapSearch::search_cells() {
                 if (level >= levels_of_all &&
                     static_cast<double>(children.size() - begin) >= (touches(*cell) ? most_touching : most))
                     break;
-                divide(*cell, children);
+                for (const Box& box : parts_of(cell->box))
+                    children.push_back({.pair = cell->pair, .box = box, .gap = cell->gap});
             }
             for (std::size_t i = begin; i < children.size(); ++i)
                 children[i].number = static_cast<std::uint32_t>(i - begin);

@@ -15,7 +15,6 @@ struct Climb {
     std::uint64_t number = 0;  ///< among the pair's climbs
     Vec3 point = {};
     Ball ball = {};                  ///< the largest one so far
-    RayPart chord = {};              ///< the longest one through its centre
     std::vector<Vec3> normals = {};  ///< of the planes that are nearest to the point
 };
 
@@ -60,13 +59,6 @@ std::vector<TangentPlane> planes_of(const std::vector<Line>& lines, const Vec3& 
     return planes;
 }
 
-/// The planes that the point is in front of: the nearest point of the plane is near the point where it touches. Others
-/// tell nothing of the boundary near by, if this is concave.
-std::vector<TangentPlane> faced(std::vector<TangentPlane> planes, const Vec3& point) {
-    std::erase_if(planes, [&](const TangentPlane& p) { return p.distance(point) < 0.5 * length(p.point - point); });
-    return planes;
-}
-
 /// The radius of a ball around the point that meets none of the planes, nor the ends of the lines.
 double radius_of(const std::vector<TangentPlane>& planes, const std::vector<Line>& lines, const Vec3& point) {
     double radius = nearest(planes, point);
@@ -83,18 +75,17 @@ void keep_normals(Climb& climb, const std::vector<TangentPlane>& planes) {
 }  // namespace
 
 /// The points from which a pair's climbs begin: middles of long parts that are not near each other.
-std::vector<Climb> OverlapSearch::starts_of(std::size_t number) const {
+std::vector<Vec3> OverlapSearch::starts_of(std::size_t number) const {
     std::vector<RayPart> chords = pairs[number].chords;
     chords.insert(chords.begin(), pairs[number].chord);
     std::ranges::stable_sort(chords, std::greater{}, &RayPart::length);
-    std::vector<Climb> climbs;
+    std::vector<Vec3> points;
     for (const RayPart& chord : chords) {
-        const auto is_near = [&](const Climb& c) { return length(c.point - chord.middle()) < 0.25 * chord.length(); };
-        if (climbs.size() == starts) break;
-        if (std::ranges::none_of(climbs, is_near))
-            climbs.push_back({.pair = number, .number = climbs.size(), .point = chord.middle()});
+        const auto is_near = [&](const Vec3& p) { return length(p - chord.middle()) < 0.25 * chord.length(); };
+        if (points.size() == starts) break;
+        if (std::ranges::none_of(points, is_near)) points.push_back(chord.middle());
     }
-    return climbs;
+    return points;
 }
 
 /// Shoots lines through the points of climbs, along their normals and in the directions of a turned frame, and calls
@@ -155,11 +146,14 @@ void OverlapSearch::shoot_lines(std::vector<Climb>& climbs, std::uint64_t round,
     }
 }
 
-/// Finds the deepest point of each overlap. Lines give planes that touch the boundary, and the next point of a climb is
-/// as far as possible from all of them.
-void OverlapSearch::climb(std::span<const std::size_t> which) {
+/// Finds the deepest point of each overlap along rays. Lines give planes that touch the boundary, and the next point of
+/// a climb is as far as possible from all of them.
+void OverlapSearch::climb_by_rays(std::span<const std::size_t> which) {
     std::vector<Climb> all, climbs;
-    for (const std::size_t i : which) std::ranges::move(starts_of(i), std::back_inserter(all));
+    for (const std::size_t i : which)
+        for (const Vec3& start : starts_of(i)) all.push_back({.pair = i, .point = start});
+    for (std::size_t k = 0; k < all.size(); ++k)
+        all[k].number = k > 0 && all[k - 1].pair == all[k].pair ? all[k - 1].number + 1 : 0;
     shoot_lines(all, 0, false, [](Climb& climb, std::vector<Line>& lines) {
         climb.ball = {climb.point, radius_of({}, lines, climb.point)};
     });
@@ -184,11 +178,8 @@ void OverlapSearch::climb(std::span<const std::size_t> which) {
             const std::vector<TangentPlane> planes = planes_of(lines, climb.point);
             if (planes.empty()) return;
             const std::vector<TangentPlane> near = faced(planes, climb.point);
-            if (const double radius = radius_of(near, lines, climb.point); radius > climb.ball.radius) {
+            if (const double radius = radius_of(near, lines, climb.point); radius > climb.ball.radius)
                 climb.ball = {climb.point, radius};
-                climb.chord =
-                    std::ranges::max_element(lines, {}, [](const Line& l) { return l.chord.length(); })->chord;
-            }
             keep_normals(climb, planes);
             // All planes lead to the middle of a convex overlap, those near by along a curved one.
             climb.point = between(round % 2 == 1 || near.size() < 4 ? planes : near, climb.point, 10 * reach);
@@ -204,10 +195,27 @@ void OverlapSearch::climb(std::span<const std::size_t> which) {
     }
     for (const Climb& climb : climbs) {
         Pair& pair = pairs[climb.pair];
-        if (!(climb.ball.radius > pair.ball.radius)) continue;
-        pair.ball = climb.ball;
-        pair.chord = climb.chord;
+        if (climb.ball.radius > pair.ball.radius) pair.ball = climb.ball;
     }
+}
+
+void OverlapSearch::climb(std::span<const std::size_t> which) {
+    climb_by_solids(which);
+    std::vector<std::size_t> left;
+    std::ranges::copy_if(which, std::back_inserter(left), [this](std::size_t i) { return !pairs[i].is_settled(); });
+    climb_by_rays(left);
+    climb_by_solids(left);
+}
+
+/// Finds a ray that shows each overlap, through its place.
+void OverlapSearch::show(std::span<const std::size_t> which) {
+    std::vector<Climb> climbs;
+    for (const std::size_t i : which) climbs.push_back({.pair = i, .point = pairs[i].deepest().center});
+    shoot_lines(climbs, 0, false, [this](Climb& climb, std::vector<Line>& lines) {
+        RayPart& shown = pairs[climb.pair].shown;
+        shown = std::ranges::max_element(lines, {}, [](const Line& l) { return l.chord.length(); })->chord;
+        if (!(shown.length() > 0)) shown = pairs[climb.pair].chord;
+    });
 }
 
 }  // namespace csgrt::analysis

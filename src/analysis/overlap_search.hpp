@@ -7,6 +7,7 @@
 #include <array>
 #include <chrono>
 #include <limits>
+#include <optional>
 #include <span>
 #include <unordered_map>
 
@@ -14,12 +15,15 @@
 #include "analysis/estimates.hpp"
 #include "analysis/frame.hpp"
 #include "analysis/inscribed_ball.hpp"
+#include "compile/bounds/distance_bounds.hpp"
 
 namespace csgrt::analysis {
 
 using Clock = std::chrono::steady_clock;
 
 inline constexpr std::size_t rays_at_once = 1u << 18;
+inline constexpr double near_enough = 0.9;  ///< the share of a depth along rays at which one by solids is taken
+inline constexpr double settled = 0.97;     ///< the share of its bound at which a depth is good enough
 inline constexpr double nowhere = std::numeric_limits<double>::infinity();
 
 /// Part of a ray that both regions of a pair claim.
@@ -42,16 +46,29 @@ struct Pair {
     Box box = {};  ///< of both regions' boxes
     bool is_found = false;
     Box seen = no_box;
-    RayPart chord = {};        ///< the longest one; after a climb, the longest one through the ball's centre
-    double at_most = nowhere;  ///< mm: the diameter of a ball in the overlap
+    RayPart chord = {};         ///< the longest one
+    RayPart shown = {};         ///< the longest one of some through the ball's centre
+    double at_most = nowhere;   ///< mm: the diameter of a ball in the overlap
+    double excluded = nowhere;  ///< mm: the diameter of a ball that the search by solids would have found
+    bool is_searched = false;   ///< by solids, as finely as the least depth needs
     std::array<double, least_batches> volumes = {};
-    Ball ball = {};
+    Ball ball = {};                    ///< the largest one that was found along rays
+    Ball sure = {};                    ///< the largest one that lies in the overlap, by the regions' solids
     std::vector<RayPart> chords = {};  ///< the longest one of each grid
+
+    /// Whether a ball that is a good deal larger than the sure one was found along rays.
+    bool is_estimate() const { return sure.radius < near_enough * ball.radius || sure.radius == 0; }
+    const Ball& deepest() const { return is_estimate() ? ball : sure; }
+    /// Whether it holds no ball of half of the least depth, whether it was found or not.
+    bool is_shallow(double min_depth) const { return std::min(at_most, excluded) < 0.5 * min_depth; }
+    /// Whether more rays can make little of the depth and its bound.
+    bool is_settled() const { return 2 * sure.radius >= settled * at_most; }
 };
 
 struct Cell;   // of a pair's common box
 struct Climb;  // to the deepest point of an overlap
 struct Line;   // through a point of an overlap
+class OverlapDepth;
 
 struct OverlapSearch {
     OverlapSearch(Model m, const Settings& settings)
@@ -60,6 +77,7 @@ struct OverlapSearch {
     Renderer renderer;
     Model model;
     unsigned threads;
+    std::optional<DistanceBounds> bounds;  ///< of the solids; made for the first depth
 
     CheckRequest request;
     std::vector<Pair> pairs;                                 ///< candidates
@@ -92,14 +110,25 @@ struct OverlapSearch {
     void take_sights();
     void shoot_model();
     void look_at(Cell& cell, std::size_t first_ray) const;
-    /// Whether a part was found that is as long as a ball of the least depth would show.
-    bool is_done(const Pair& pair) const { return pair.is_found && pair.chord.length() >= request.min_depth; }
+    /// Whether a part was found that is as long as a ball of the least depth would show, or such a ball is excluded.
+    bool is_done(const Pair& pair) const {
+        return (pair.is_found && pair.chord.length() >= request.min_depth) || pair.is_shallow(request.min_depth) ||
+               pair.is_searched;
+    }
     void search_cells();
     void measure(std::span<const std::size_t> which, double rays_of_grid);
-    std::vector<Climb> starts_of(std::size_t number) const;
+    std::vector<Vec3> starts_of(std::size_t number) const;
     void shoot_lines(std::vector<Climb>& climbs, std::uint64_t round, bool beside,
                      const std::function<void(Climb&, std::vector<Line>&)>& take);
     void climb(std::span<const std::size_t> which);
+    void for_overlaps(std::span<const std::size_t> which, const std::function<void(std::size_t, OverlapDepth&)>& work);
+    void bound(Pair& pair, OverlapDepth& depth, const Ball& near) const;
+    double thickness(OverlapDepth& depth, const Vec3& center, double half, bool& is_sure) const;
+    void search_by_solids(std::size_t number, OverlapDepth& depth);
+    void look_at_solids();
+    void climb_by_solids(std::span<const std::size_t> which);
+    void climb_by_rays(std::span<const std::size_t> which);
+    void show(std::span<const std::size_t> which);
     bool allows(const AllowedOverlap& row, const Pair& pair) const;
     CheckResult result(bool is_complete) const;
     CheckResult run(const CheckRequest& wanted, std::function<bool(const CheckResult&)> on_look);

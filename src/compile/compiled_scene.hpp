@@ -128,6 +128,9 @@ struct CompileOptions {
     std::uint64_t max_instances = 0;  ///< see Settings
 };
 
+/// The scene of a Model, valid as long as the Model is.
+const CompiledScene& compiled_scene(const Model& model);
+
 /// Validates and compiles `objects` of `scene` (empty: its top objects). Throws Error (scene) with every finding.
 CompiledScene compile(const Scene& scene, const std::vector<std::string>& objects = {},
                       const CompileOptions& options = {});

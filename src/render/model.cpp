@@ -136,6 +136,8 @@ Model::Model(Scene scene, const std::vector<std::string>& objects, const Setting
     impl_ = std::make_shared<Impl>(std::move(source));
 }
 
+const CompiledScene& compiled_scene(const Model& model) { return model.impl_->scene; }
+
 const Box& Model::bounds() const { return impl_->scene.bounds; }
 const SharedList<RegionInfo>& Model::regions() const { return impl_->scene.region_info; }
 const SharedList<SolidInfo>& Model::solids() const { return impl_->scene.solid_info; }

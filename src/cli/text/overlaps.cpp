@@ -122,12 +122,13 @@ std::string to_json(const CheckResult& result, const CheckRequest& request, cons
         text += std::string(next) + "{\"regions\": [" + json_text(model.regions()[o.regions[0]].path) + ", " +
                 json_text(model.regions()[o.regions[1]].path) + "], \"indices\": [" + std::to_string(o.regions[0]) +
                 ", " + std::to_string(o.regions[1]) + "], \"depth\": " + (o.depth > 0 ? json_figure(o.depth) : "null") +
-                ", \"depth_at_most\": " + json_figure(o.depth_at_most) + ", \"volume\": " + json_estimate(o.volume) +
-                ", \"place\": " + json_point(o.place) + ", \"box\": " + json_corners(o.box) +
-                ", \"new\": " + truth(is_new(o, request)) + ", \"allowed\": " + truth(o.is_allowed) +
-                ", \"near_limit\": " + truth(o.is_near_limit) + ", \"origin\": " + json_point(o.ray.origin) +
-                ", \"direction\": " + json_point(o.ray.direction) + ", \"range\": [" + json_figure(o.t_in) + ", " +
-                json_figure(o.t_out) + "], \"allow\": " + json_text(row_of(o, model)) + "}";
+                ", \"estimate\": " + truth(o.is_estimate) + ", \"depth_at_most\": " + json_figure(o.depth_at_most) +
+                ", \"volume\": " + json_estimate(o.volume) + ", \"place\": " + json_point(o.place) +
+                ", \"box\": " + json_corners(o.box) + ", \"new\": " + truth(is_new(o, request)) +
+                ", \"allowed\": " + truth(o.is_allowed) + ", \"near_limit\": " + truth(o.is_near_limit) +
+                ", \"origin\": " + json_point(o.ray.origin) + ", \"direction\": " + json_point(o.ray.direction) +
+                ", \"range\": [" + json_figure(o.t_in) + ", " + json_figure(o.t_out) +
+                "], \"allow\": " + json_text(row_of(o, model)) + "}";
         next = ",\n    ";
     }
     text += "\n  ],\n  \"unbounded\": [";

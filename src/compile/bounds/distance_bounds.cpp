@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "ray_forms.hpp"
-
-namespace csgrt::bench {
+namespace csgrt {
 namespace {
 
-/// The largest singular value: the root of the largest eigenvalue of M = L' L, by Cardano's formula in its
+bool has_body(const kernel::SolidRecord& record) { return record.type != SOLID_ARB && record.type != SOLID_HALF; }
+
+/// L's largest singular value: the root of the largest eigenvalue of M = L' L, by Cardano's formula in its
 /// trigonometric form, and a little more for its rounding.
 double largest_stretch(const double* l) {
     double m[3][3];
@@ -31,20 +31,59 @@ double norm_slope(double p) { return p >= 2 ? 1 : std::pow(2, 1 / p - 0.5); }
 
 bool is_paraboloid(const double* p) { return p[14] == 0 && p[15] != 0; }
 
+/// The steepest slope of rho - k z: across the axis that of rho, along it k. The two are added like perpendicular ones
+/// if the axis is perpendicular to the sections, as rows of L are then.
+double slope_of_cone(const double* l, double k) {
+    const auto dot = [&](int i, int j) { return l[i] * l[j] + l[i + 1] * l[j + 1] + l[i + 2] * l[j + 2]; };
+    const double xx = dot(0, 0), yy = dot(3, 3), xy = dot(0, 3), zz = dot(6, 6);
+    const double across = std::sqrt(0.5 * (xx + yy) + std::hypot(0.5 * (xx - yy), xy)),
+                 along = std::sqrt(zz) * std::abs(k);
+    const bool is_right =
+        std::abs(dot(0, 6)) <= 1e-9 * std::sqrt(xx * zz) && std::abs(dot(3, 6)) <= 1e-9 * std::sqrt(yy * zz);
+    return (is_right ? std::hypot(across, along) : across + along) * (1 + 1e-9);
+}
+
+/// The steepest slope of a body's function, in millimetres; infinite: it has none.
 double slope(const kernel::SolidRecord& record, const double* p) {
+    double s = 1;  // in the body's coordinates
     switch (record.type) {
         case SOLID_TGC:
-            return p[16] == 0 ? std::hypot(1, p[13]) : 1;
+            if (p[16] == 0) return slope_of_cone(p + 3, p[13]);
+            break;
+        case SOLID_ELL:
+        case SOLID_TOR:
+        case SOLID_PART:
+            break;
         case SOLID_EHY:
-            return std::sqrt(1 + 0.25 / (1 + 2 * p[12]));
+            s = std::sqrt(1 + 0.25 / (1 + 2 * p[12]));
+            break;
         case SOLID_QUADRIC:
-            return is_paraboloid(p) ? 2 : std::sqrt(1 - p[14]);
+            s = is_paraboloid(p) ? 2 : std::sqrt(1 - p[14]);
+            break;
         case SOLID_ETO:
-            return std::sqrt(0.5 * (p[12] + p[14]) + std::hypot(0.5 * (p[12] - p[14]), p[13]));
+            s = std::sqrt(0.5 * (p[12] + p[14]) + std::hypot(0.5 * (p[12] - p[14]), p[13]));
+            break;
         case SOLID_SUPERELL:
-            return norm_slope(p[12]) * norm_slope(p[14]);
+            if (p[12] >= 1 && p[14] >= 1) {
+                s = norm_slope(p[12]) * norm_slope(p[14]);
+                break;
+            }
+            [[fallthrough]];
         default:
-            return 1;
+            return HUGE_VAL;
+    }
+    return (1 + 1e-12) * s * largest_stretch(p + 3);
+}
+
+/// Whether the body is convex, and its function, too.
+bool has_convex_body(const kernel::SolidRecord& record, const double* p) {
+    switch (record.type) {
+        case SOLID_TGC:
+            return p[16] == 0;
+        case SOLID_QUADRIC:
+            return is_paraboloid(p);
+        default:
+            return record.type != SOLID_TOR && record.type != SOLID_ETO;
     }
 }
 
@@ -64,20 +103,8 @@ double two_tapers(const double* p, double x, double y, double z) {
     return std::max((std::sqrt(u * u + v * v) - h) / std::hypot(1, along), rho - 1);
 }
 
-}  // namespace
-
-DistanceBounds::DistanceBounds(const CompiledScene& scene) : scene_(scene) {
-    for (const kernel::SolidRecord& record : scene.solids) {
-        if (record.type == SOLID_ARB || record.type == SOLID_HALF) {
-            factor_.push_back(1);
-            continue;
-        }
-        const double* p = scene.reals.data() + record.first_real;
-        factor_.push_back(1 / ((1 + 1e-12) * slope(record, p) * largest_stretch(p + 3)));
-    }
-}
-
-double DistanceBounds::local(const kernel::SolidRecord& record, const double* p, double x, double y, double z) const {
+/// The body's function.
+double local(const kernel::SolidRecord& record, const double* p, double x, double y, double z) {
     switch (record.type) {
         case SOLID_ELL:
             return std::sqrt(x * x + y * y + z * z) - 1;
@@ -131,33 +158,63 @@ double DistanceBounds::local(const kernel::SolidRecord& record, const double* p,
     }
 }
 
-double DistanceBounds::at(std::uint32_t solid, const Vec3& point) const {
+}  // namespace
+
+DistanceBounds::DistanceBounds(const CompiledScene& scene) : scene_(scene) {
+    for (const kernel::SolidRecord& record : scene.solids)
+        scales_.push_back(has_body(record) ? 1 / slope(record, scene.reals.data() + record.first_real) : 1);
+}
+
+double DistanceBounds::body(std::uint32_t solid, const Vec3& point) const {
     const kernel::SolidRecord& record = scene_.solids[solid];
-    double f = -HUGE_VAL;
-    if (record.type != SOLID_ARB && record.type != SOLID_HALF) {
-        const double* p = scene_.reals.data() + record.first_real;
-        const double dx = point.x - p[0], dy = point.y - p[1], dz = point.z - p[2];
-        f = factor_[solid] * local(record, p, p[3] * dx + p[4] * dy + p[5] * dz, p[6] * dx + p[7] * dy + p[8] * dz,
-                                   p[9] * dx + p[10] * dy + p[11] * dz);
-    }
+    const double* p = scene_.reals.data() + record.first_real;
+    const double dx = point.x - p[0], dy = point.y - p[1], dz = point.z - p[2];
+    return scales_[solid] * local(record, p, p[3] * dx + p[4] * dy + p[5] * dz, p[6] * dx + p[7] * dy + p[8] * dz,
+                                  p[9] * dx + p[10] * dy + p[11] * dz);
+}
+
+template <class Take>
+void DistanceBounds::for_planes(std::uint32_t solid, const Take& take) const {
+    const kernel::SolidRecord& record = scene_.solids[solid];
     for (std::uint32_t i = 0; i < record.plane_count; ++i) {
         const kernel::PlaneRef ref = scene_.words[record.first_plane + i];
         const kernel::PlaneRecord& plane = scene_.planes[ref >> 1];
-        const double above = plane.nx * point.x + plane.ny * point.y + plane.nz * point.z - plane.d;
-        f = std::max(f, ref & 1 ? -above : above);
+        const double sign = ref & 1 ? -1 : 1;
+        take(Vec3{sign * plane.nx, sign * plane.ny, sign * plane.nz}, sign * plane.d);
     }
+}
+
+double DistanceBounds::at(std::uint32_t solid, const Vec3& point) const {
+    double f = has_body(scene_.solids[solid]) ? body(solid, point) : -HUGE_VAL;
+    for_planes(solid,
+               [&](const Vec3& n, double d) { f = std::max(f, n.x * point.x + n.y * point.y + n.z * point.z - d); });
     return f;
 }
 
-std::string type_without_distance(const CompiledScene& scene) {
-    for (const std::uint32_t type :
-         {SOLID_HRT, SOLID_METABALL, SOLID_MESH, SOLID_PLATE, SOLID_EXTRUDE, SOLID_REVOLVE, SOLID_CROSSED_ETO})
-        if (scene.solid_types >> type & 1) return type_name(type);
-    for (const kernel::SolidRecord& record : scene.solids) {
-        const double* p = scene.reals.data() + record.first_real;
-        if (record.type == SOLID_SUPERELL && !(p[12] >= 1 && p[14] >= 1)) return "superell with an exponent above 2";
+void DistanceBounds::append_pieces(std::uint32_t solid, const Vec3& point, double reach,
+                                   std::vector<Piece>& pieces) const {
+    const kernel::SolidRecord& record = scene_.solids[solid];
+    if (const double distance = has_body(record) ? body(solid, point) : 0; has_body(record) && distance >= -reach) {
+        const Box& box = scene_.solid_boxes[solid];
+        const Vec3 size{box.high.x - box.low.x, box.high.y - box.low.y, box.high.z - box.low.z};
+        const double step = 1e-5 * std::sqrt(size.x * size.x + size.y * size.y + size.z * size.z);
+        Piece piece{.distance = distance,
+                    .is_convex = has_convex_body(record, scene_.reals.data() + record.first_real)};
+        for (double Vec3::*const axis : {&Vec3::x, &Vec3::y, &Vec3::z}) {
+            Vec3 before = point, after = point;
+            before.*axis -= step;
+            after.*axis += step;
+            const double low = body(solid, before), high = body(solid, after);
+            piece.slope.*axis = (high - low) / (after.*axis - before.*axis);
+            // At a tip or an axis, where the function has a kink, these are not a tangent plane's slopes.
+            piece.is_convex &= std::abs(high + low - 2 * distance) < 0.01 * step;
+        }
+        pieces.push_back(piece);
     }
-    return "";
+    for_planes(solid, [&](const Vec3& n, double d) {
+        const double distance = n.x * point.x + n.y * point.y + n.z * point.z - d;
+        if (distance >= -reach) pieces.push_back({distance, n, true, true});
+    });
 }
 
-}  // namespace csgrt::bench
+}  // namespace csgrt
