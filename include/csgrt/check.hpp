@@ -29,6 +29,7 @@ namespace csgrt {
 /// all regions below it, too. The order of the two does not matter.
 struct AllowedOverlap {
     std::string first = {}, second = {};
+    bool operator==(const AllowedOverlap&) const = default;
 };
 
 /// Reads a list of allowed overlaps: on each line two patterns of paths, separated by spaces or tabs; # begins a
@@ -51,41 +52,35 @@ struct CheckRequest {
 
 /// An overlap of two regions.
 struct FoundOverlap {
-    std::array<std::uint32_t, 2> regions = {};  ///< indices into Model::regions(), ascending: the first one owns it
+    std::array<std::uint32_t, 2> regions = {};  ///< Indices of the regions, ascending: the first one owns it.
     Vec3 place = {};                            ///< Millimetres: the centre of the largest ball that was found in it.
     double depth = 0;                           ///< Millimetres: the diameter of the largest ball that was found in it.
     /// Whether the ball was only measured along rays, and may be too large. Else it lies in the overlap, by the
     /// distances from the surfaces of the regions' solids.
     bool is_estimate = true;
     double depth_at_most = 0;    ///< Millimetres: no ball in it has a larger diameter.
-    Estimate volume = {};        ///< mm³
+    Estimate volume = {};        ///< In mm^3.
     Box box = {};                ///< Millimetres: of the parts of rays that both claim.
     Ray ray = {};                ///< The ray, through the place, that shows it.
-    double t_in = 0, t_out = 0;  ///< Millimetres along the ray.
-    bool is_allowed = false;     ///< by CheckRequest::allowed
+    double t_in = 0, t_out = 0;  ///< Where the ray goes in and out: millimetres along it.
+    bool is_allowed = false;     ///< Whether a row of the request's list allows it.
     /// Whether it is between half of the least depth and twice the least depth: another seed may decide otherwise.
     bool is_near_limit = false;
+    bool is_new = false;  ///< Whether it is not allowed, and at least the least depth deep.
 };
 
 /// The findings of a check.
 struct CheckResult {
-    std::vector<FoundOverlap> overlaps = {};  ///< at least half of the least depth deep, the deepest first
-    std::vector<AllowedOverlap> unused = {};  ///< rows of CheckRequest::allowed that no overlap needs
+    std::vector<FoundOverlap> overlaps = {};  ///< At least half of the least depth deep, the deepest first.
+    std::vector<AllowedOverlap> unused = {};  ///< Rows of the request's list that no overlap needs.
     /// Indices of regions without an end. Only their parts within the box of all others were searched.
     std::vector<std::uint32_t> unbounded = {};
-    std::uint64_t candidates = 0;  ///< pairs of regions whose boxes overlap
-    std::uint64_t shallow = 0;     ///< pairs that overlap by less than half of the least depth
-    std::uint64_t rays = 0;        ///< traced in all
-    /// False: look() or Settings::progress has ended the check. Depths that are not known then are 0.
-    bool is_complete = true;
-    double seconds = 0;  ///< time that the call took
-
-    /// Number of overlaps that are not allowed and deep enough.
-    std::uint64_t new_overlaps(double min_depth) const {
-        std::uint64_t count = 0;
-        for (const FoundOverlap& o : overlaps) count += !o.is_allowed && o.depth >= min_depth;
-        return count;
-    }
+    std::uint64_t new_overlaps = 0;  ///< Number of overlaps that are new.
+    std::uint64_t candidates = 0;    ///< Number of pairs of regions whose boxes overlap.
+    std::uint64_t shallow = 0;       ///< Number of pairs that overlap by less than half of the least depth.
+    std::uint64_t rays = 0;          ///< Number of rays that were traced in all.
+    bool is_complete = true;         ///< False: the caller has ended the check. Depths that are not known then are 0.
+    double seconds = 0;              ///< Seconds that the call took.
 };
 
 /// Searches a model for overlaps. Not copyable. One thread at a time.

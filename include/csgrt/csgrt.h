@@ -14,10 +14,9 @@
 // - Lengths are millimetres, angles degrees, z is up, matrices are 4 x 4, row by row, for column vectors. Distances
 //   along a ray are in lengths of its direction. Colours are red, green and blue, from 0 to 1.
 // - Threads. Any number of threads may use a csgrt_model at a time. Any number may read a csgrt_scene (as const), or
-// one
-//   thread may change it. One thread at a time, not always the same, may use a csgrt_renderer, csgrt_edit,
-//   csgrt_partitions, csgrt_image or csgrt_verifier; other threads may call csgrt_renderer_model() and
-//   csgrt_renderer_set_model() meanwhile.
+//   one thread may change it. One thread at a time, not always the same, may use a csgrt_renderer, csgrt_edit,
+//   csgrt_partitions, csgrt_image, csgrt_verifier, csgrt_measurer or csgrt_checker; other threads may call
+//   csgrt_renderer_model() and csgrt_renderer_set_model() meanwhile.
 #ifndef CSGRT_CSGRT_H
 #define CSGRT_CSGRT_H
 
@@ -910,6 +909,94 @@ CSGRT_API csgrt_status csgrt_measurer_grid(const csgrt_measurer* measurer, csgrt
 /// Reads a table of densities (csgrt::load_densities()), which counts for requests without densities.
 CSGRT_API csgrt_status csgrt_measurer_load_densities(csgrt_measurer* measurer, const char* path);
 
+// ---- Checks ----
+
+/// csgrt::AllowedOverlap: patterns of the paths of two regions that may overlap.
+typedef struct csgrt_allowed_overlap {
+    const char *first, *second;
+} csgrt_allowed_overlap;
+
+/// csgrt::CheckRequest
+typedef struct csgrt_check_request {
+    size_t size;
+    /// Millimetres: the diameter of the largest ball in an overlap from which on it counts.
+    double min_depth;
+    /// How many times the usual number of cells of a candidate are searched.
+    double effort;
+    /// Seed of the random numbers.
+    uint64_t seed;
+    /// Pairs of regions whose overlaps are allowed.
+    const csgrt_allowed_overlap* allowed;
+    size_t allowed_count;
+} csgrt_check_request;
+
+/// csgrt::CheckResult. In place of a list it has the length.
+typedef struct csgrt_check_result {
+    size_t size;
+    /// At least half of the least depth deep, the deepest first.
+    uint64_t overlaps;
+    /// Rows of the request's list that no overlap needs.
+    uint64_t unused;
+    /// Indices of regions without an end. Only their parts within the box of all others were searched.
+    uint64_t unbounded;
+    /// Number of overlaps that are new.
+    uint64_t new_overlaps;
+    /// Number of pairs of regions whose boxes overlap.
+    uint64_t candidates;
+    /// Number of pairs that overlap by less than half of the least depth.
+    uint64_t shallow;
+    /// Number of rays that were traced in all.
+    uint64_t rays;
+    /// False: the caller has ended the check. Depths that are not known then are 0.
+    int is_complete;
+    /// Seconds that the call took.
+    double seconds;
+} csgrt_check_result;
+
+/// csgrt::FoundOverlap
+typedef struct csgrt_found_overlap {
+    size_t size;
+    /// Indices of the regions, ascending: the first one owns it.
+    uint32_t regions[2];
+    /// Millimetres: the centre of the largest ball that was found in it.
+    csgrt_vec3 place;
+    /// Millimetres: the diameter of the largest ball that was found in it, measured along rays. An estimate.
+    double depth;
+    /// Millimetres: no ball in it has a larger diameter.
+    double depth_at_most;
+    /// In mm^3.
+    csgrt_estimate volume;
+    /// Millimetres: of the parts of rays that both claim.
+    csgrt_box box;
+    /// The ray, through the place, that shows it.
+    csgrt_ray ray;
+    /// Where the ray goes in and out: millimetres along it.
+    double t_in;
+    double t_out;
+    /// Whether a row of the request's list allows it.
+    int is_allowed;
+    /// Whether it is between half of the least depth and twice the least depth: another seed may decide otherwise.
+    int is_near_limit;
+    /// Whether it is not allowed, and at least the least depth deep.
+    int is_new;
+} csgrt_found_overlap;
+
+/// csgrt::Checker: the regions of a model that overlap.
+typedef struct csgrt_checker csgrt_checker;
+CSGRT_API csgrt_status csgrt_checker_create(const csgrt_model* model, const csgrt_settings* settings,
+                                            csgrt_checker** checker);
+CSGRT_API void csgrt_checker_free(csgrt_checker* checker);
+/// Searches. `request`: NULL for CSGRT_CHECK_REQUEST. If csgrt_settings::progress ends the check, the result is what
+/// was found until then, and CSGRT_OK is returned.
+CSGRT_API csgrt_status csgrt_checker_check(csgrt_checker* checker, const csgrt_check_request* request,
+                                           csgrt_check_result* result);
+/// Items of the lists of the last result. The texts are valid until the next call of csgrt_checker_check().
+CSGRT_API csgrt_status csgrt_checker_overlap(const csgrt_checker* checker, size_t index, csgrt_found_overlap* overlap);
+CSGRT_API csgrt_status csgrt_checker_unused(const csgrt_checker* checker, size_t index, csgrt_allowed_overlap* row);
+CSGRT_API csgrt_status csgrt_checker_unbounded(const csgrt_checker* checker, size_t index, uint32_t* region);
+/// Reads a list of allowed overlaps (csgrt::load_allowed_overlaps()), which counts for requests without a list.
+CSGRT_API csgrt_status csgrt_checker_load_allowed(csgrt_checker* checker, const char* path);
+
 // ---- Defaults ----
 
 // The defaults are macros for C and C++, and functions for other languages: each function puts the defaults into a
@@ -938,6 +1025,9 @@ CSGRT_API void csgrt_measure_request_init(csgrt_measure_request* measure_request
 CSGRT_API void csgrt_measured_init(csgrt_measured* measured);
 CSGRT_API void csgrt_measurement_init(csgrt_measurement* measurement);
 CSGRT_API void csgrt_measured_grid_init(csgrt_measured_grid* measured_grid);
+CSGRT_API void csgrt_check_request_init(csgrt_check_request* check_request);
+CSGRT_API void csgrt_check_result_init(csgrt_check_result* check_result);
+CSGRT_API void csgrt_found_overlap_init(csgrt_found_overlap* found_overlap);
 
 // clang-format off
 #define CSGRT_DIAGNOSTIC {sizeof(csgrt_diagnostic), "", "", "", "", "", 0, 0, -1, 1, 0}
@@ -974,6 +1064,10 @@ CSGRT_API void csgrt_measured_grid_init(csgrt_measured_grid* measured_grid);
 #define CSGRT_MEASUREMENT {sizeof(csgrt_measurement), 0, 0, 0, 0, 0}
 #define CSGRT_MEASURED_GRID {sizeof(csgrt_measured_grid), {0, 0, 0}, {{0, 0, 0}, {0, 0, 0}}, \
     {0, NULL, NULL, NULL, NULL}, {0, NULL, NULL, NULL, NULL}}
+#define CSGRT_CHECK_REQUEST {sizeof(csgrt_check_request), 0.01, 1, 1, NULL, 0}
+#define CSGRT_CHECK_RESULT {sizeof(csgrt_check_result), 0, 0, 0, 0, 0, 0, 0, 1, 0}
+#define CSGRT_FOUND_OVERLAP {sizeof(csgrt_found_overlap), {0, 0}, {0, 0, 0}, 0, 0, {0, 0}, {{0, 0, 0}, {0, 0, 0}}, \
+    {{0, 0, 0}, {0, 0, 0}}, 0, 0, 0, 0, 0}
 // clang-format on
 
 #ifdef __cplusplus

@@ -222,6 +222,8 @@ CheckResult OverlapSearch::result(bool is_complete) const {
             found.is_allowed = true;
             is_used[i] = true;
         }
+        found.is_new = !found.is_allowed && depth >= request.min_depth;
+        result.new_overlaps += found.is_new;
         result.overlaps.push_back(found);
     }
     for (std::size_t i = 0; i < is_used.size(); ++i)

@@ -135,6 +135,7 @@ inline csgrt_vec3 of(const Vec3& v) { return {v.x, v.y, v.z}; }
 inline csgrt_box of(const Box& box) { return {of(box.low), of(box.high)}; }
 inline Box of(const csgrt_box& box) { return {of(box.low), of(box.high)}; }
 inline csgrt_ray of(const Ray& ray) { return {of(ray.origin), of(ray.direction)}; }
+inline csgrt_estimate of(const Estimate& e) { return {e.value, e.half_width}; }
 inline std::optional<Vec3> of(const csgrt_vec3* v) { return v ? std::optional(of(*v)) : std::nullopt; }
 inline const csgrt_vec3* of(const std::optional<Vec3>& v) { return v ? same_layout<const csgrt_vec3>(&*v) : nullptr; }
 

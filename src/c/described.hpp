@@ -12,6 +12,7 @@
 
 #include "c/call.hpp"
 #include "form/answers.hpp"
+#include "form/check.hpp"
 #include "form/measure.hpp"
 #include "form/requests.hpp"
 
@@ -78,6 +79,10 @@ void read_member(CMembers<const std::byte>& members, const Member& member, Value
         const auto first = members.next<const csgrt_density*>();
         for (const csgrt_density& row : needed(first, members.next<std::size_t>(), name.c_str()))
             value.push_back({row.material_id, text_or_empty(row.path), row.density, text_or_empty(row.name)});
+    } else if constexpr (std::is_same_v<Value, std::vector<AllowedOverlap>>) {
+        const auto first = members.next<const csgrt_allowed_overlap*>();
+        for (const csgrt_allowed_overlap& row : needed(first, members.next<std::size_t>(), name.c_str()))
+            value.push_back({&needed(row.first, name.c_str()), &needed(row.second, name.c_str())});
     } else if constexpr (std::is_same_v<Value, Camera>) {
         if (const auto camera = members.next<const csgrt_camera*>()) value = camera_of(camera);
     } else if constexpr (std::is_same_v<Value, std::optional<PixelRectangle>>) {
@@ -107,19 +112,26 @@ S described(const C& given, const char* name) {
     return all;
 }
 
+/// The request of a call; a null pointer stands for `usual`.
+template <class S, class C>
+S request_of(const C* request, const C& usual) {
+    return described<S>(request ? read(request, usual, "request") : usual, "request");
+}
+
 template <class Value>
 void write_member(CMembers<std::byte>& members, const Value& value) {
     if constexpr (std::is_same_v<Value, bool> || std::is_enum_v<Value>) {
         members.put(static_cast<int>(value));
     } else if constexpr (std::is_same_v<Value, Vec3> || std::is_same_v<Value, Box> ||
-                         std::is_same_v<Value, std::optional<Vec3>>) {
+                         std::is_same_v<Value, std::optional<Vec3>> || std::is_same_v<Value, Ray> ||
+                         std::is_same_v<Value, Estimate>) {
         members.put(of(value));
     } else if constexpr (std::is_same_v<Value, std::optional<double>>) {
         members.put(value.value_or(0));
     } else if constexpr (std::is_same_v<Value, std::string>) {
         members.put(value.c_str());
     } else {
-        static_assert(std::is_arithmetic_v<Value>);
+        static_assert(std::is_arithmetic_v<Value> || std::is_same_v<Value, std::array<std::uint32_t, 2>>);
         members.put(value);
     }
 }
@@ -131,7 +143,10 @@ C shown(const S& of) {
     std::memset(&all, 0, sizeof all);
     CMembers<std::byte> members(all);
     form::for_members(form::of<S>, [&](const auto& member) {
-        if constexpr (!std::is_same_v<std::remove_cvref_t<decltype(member.kind)>, form::Special>)
+        using Kind = std::remove_cvref_t<decltype(member.kind)>;
+        if constexpr (std::is_same_v<Kind, form::Listed>)
+            members.put(form::member_of(member, of).size());
+        else if constexpr (!std::is_same_v<Kind, form::Special>)
             write_member(members, form::member_of(member, of));
     });
     members.expect_end("the answer");

@@ -13,8 +13,6 @@ struct csgrt_measurer {
 
 namespace {
 
-csgrt_estimate of(const Estimate& e) { return {e.value, e.half_width}; }
-
 template <std::size_t count>
 void copy(const std::array<Estimate, count>& from, csgrt_estimate (&to)[count]) {
     std::transform(from.begin(), from.end(), to, [](const Estimate& e) { return ::of(e); });
@@ -38,9 +36,7 @@ csgrt_status csgrt_measurer_measure(csgrt_measurer* measurer, const csgrt_measur
                                     csgrt_measurement* result) {
     return call([&] {
         csgrt_measurer& m = CSGRT_NEED(measurer);
-        auto wanted = request ? described<MeasureRequest>(
-                                    read(request, csgrt_measure_request CSGRT_MEASURE_REQUEST, "request"), "request")
-                              : MeasureRequest{};
+        auto wanted = request_of<MeasureRequest>(request, csgrt_measure_request CSGRT_MEASURE_REQUEST);
         if (wanted.densities.empty()) wanted.densities = m.densities;
         m.result = m.measurer.measure(wanted);
         fill(result,

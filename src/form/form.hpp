@@ -97,6 +97,7 @@ template <class Names>
 Named(const Names*) -> Named<Names>;
 /// A member that each interface handles with its own code.
 struct Special {};
+struct Listed {};  ///< a list in an answer: C has its length, and a call for an item
 /// A member whose reader is handwritten. `schema`: its text in the schema.
 struct Other {
     const char* schema;
@@ -120,6 +121,7 @@ inline constexpr Texts texts{};
 inline constexpr Planes planes{};
 inline constexpr Boxed box{};
 inline constexpr Special special{};
+inline constexpr Listed listed{};
 inline constexpr Whole byte{0, 255};
 inline constexpr Whole integer{std::numeric_limits<int>::min(), std::numeric_limits<int>::max()};
 template <class S>

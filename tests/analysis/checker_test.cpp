@@ -154,16 +154,16 @@ TEST_CASE("devices and threads change no bit of a check, and a seed changes its 
 TEST_CASE("allowed overlaps are marked, by patterns in either order, and rows without use are told") {
     const Planted p = planted(2.0)[0];
     const auto with = [&](std::vector<AllowedOverlap> rows) { return checked(p.scene, {.allowed = std::move(rows)}); };
-    CHECK(with({}).new_overlaps(0.01) == 1);
+    CHECK(with({}).new_overlaps == 1);
     for (const auto& [a, b] : {std::pair("/all/first", "/all/second"), {"*second", "/all/f*"}, {"/all", "*"}}) {
         const CheckResult result = with({{a, b}, {"/other", "*"}});
-        CHECK(result.new_overlaps(0.01) == 0);
+        CHECK(result.new_overlaps == 0);
         REQUIRE(result.overlaps.size() == 1);
         CHECK(result.overlaps.front().is_allowed);
         REQUIRE(result.unused.size() == 1);
         CHECK(result.unused.front().first == "/other");
     }
-    CHECK(with({{"/all/firs", "/all/second"}}).new_overlaps(0.01) == 1);
+    CHECK(with({{"/all/firs", "/all/second"}}).new_overlaps == 1);
 }
 
 TEST_CASE("shallow overlaps are counted, and those near the limit marked") {

@@ -1,4 +1,5 @@
-/* csgrt.h in C99 alone: builds a part, asks for what is along a ray, draws it, edits it, verifies it and weighs it. */
+/* csgrt.h in C99 alone: builds a part, asks for what is along a ray, draws it, edits it, verifies it, weighs it
+   and checks it. */
 #include <csgrt/csgrt.h>
 
 #include <stdio.h>
@@ -18,6 +19,12 @@ static int count_calls(void* user, double done) {
     return done <= 1;
 }
 
+static int end_at_once(void* user, double done) {
+    (void)user;
+    (void)done;
+    return 0;
+}
+
 int main(void) {
     csgrt_scene* scene = NULL;
     csgrt_model *model = NULL, *next = NULL;
@@ -26,6 +33,7 @@ int main(void) {
     csgrt_edit* edit = NULL;
     csgrt_verifier* verifier = NULL;
     csgrt_measurer* measurer = NULL;
+    csgrt_checker* checker = NULL;
 
     /* A box with a bore. */
     EXPECT(csgrt_scene_create(&scene) == CSGRT_OK);
@@ -132,6 +140,62 @@ int main(void) {
         EXPECT(csgrt_measurer_measure(measurer, &request, &result) == CSGRT_ERROR_USAGE);
     }
 
+    /* A peg that is 0.5 mm too thick for the bore, and a half space that touches the plate. */
+    {
+        const csgrt_member thick[] = {CSGRT_MEMBER("base", 0, 0, 1), CSGRT_MEMBER("height", 0, 0, 2),
+                                      CSGRT_MEMBER("radius", 3.5)};
+        const csgrt_member below[] = {CSGRT_MEMBER("normal", 0, 0, 1), CSGRT_MEMBER("distance", 0)};
+        const csgrt_tree_node peg_node = CSGRT_OBJECT("thick"), ground_node = CSGRT_OBJECT("below");
+        const csgrt_allowed_overlap rows[] = {{"/peg", "/pl*"}, {"/peg", "/ground"}};
+        csgrt_combination peg = CSGRT_COMBINATION, ground;
+        csgrt_check_request request = CSGRT_CHECK_REQUEST;
+        csgrt_check_result result = CSGRT_CHECK_RESULT;
+        csgrt_found_overlap overlap = CSGRT_FOUND_OVERLAP;
+        csgrt_allowed_overlap unused;
+        csgrt_settings settings = CSGRT_SETTINGS;
+        uint32_t open_region = 0;
+        double squared;
+        peg.name = "peg";
+        peg.nodes = &peg_node;
+        peg.node_count = 1;
+        peg.region = 1;
+        ground = peg;
+        ground.name = "ground";
+        ground.nodes = &ground_node;
+        EXPECT(csgrt_scene_add_solid(scene, "thick", "cylinder", thick, 3) == CSGRT_OK);
+        EXPECT(csgrt_scene_add_solid(scene, "below", "half", below, 2) == CSGRT_OK);
+        EXPECT(csgrt_scene_add_combination(scene, &peg) == CSGRT_OK);
+        EXPECT(csgrt_scene_add_combination(scene, &ground) == CSGRT_OK);
+        csgrt_model_free(next);
+        EXPECT(csgrt_model_create(scene, NULL, 0, NULL, &next) == CSGRT_OK);
+        EXPECT(csgrt_checker_create(next, NULL, &checker) == CSGRT_OK);
+        EXPECT(csgrt_checker_check(checker, NULL, &result) == CSGRT_OK);
+        EXPECT(result.overlaps == 1 && result.new_overlaps == 1 && result.is_complete && result.rays > 0);
+        EXPECT(result.unbounded == 1 && result.unused == 0);
+        EXPECT(csgrt_checker_unbounded(checker, 0, &open_region) == CSGRT_OK && open_region == 2);
+        EXPECT(csgrt_checker_overlap(checker, 0, &overlap) == CSGRT_OK);
+        EXPECT(overlap.regions[0] == 0 && overlap.regions[1] == 1 && overlap.is_new && !overlap.is_allowed);
+        EXPECT(overlap.depth > 0.45 && overlap.depth <= overlap.depth_at_most && overlap.volume.value > 15);
+        squared = overlap.place.x * overlap.place.x + overlap.place.y * overlap.place.y;
+        EXPECT(squared > 3.1 * 3.1 && squared < 3.4 * 3.4 && overlap.place.z > 1 && overlap.place.z < 3);
+        EXPECT(overlap.box.low.z > 0.999 && overlap.box.high.z < 3.001 && overlap.t_out > overlap.t_in);
+        EXPECT(csgrt_checker_overlap(checker, 1, &overlap) == CSGRT_ERROR_USAGE);
+        request.allowed = rows;
+        request.allowed_count = 2;
+        EXPECT(csgrt_checker_check(checker, &request, &result) == CSGRT_OK);
+        EXPECT(csgrt_checker_overlap(checker, 0, &overlap) == CSGRT_OK && overlap.is_allowed && !overlap.is_new);
+        EXPECT(result.new_overlaps == 0 && result.unused == 1);
+        EXPECT(csgrt_checker_unused(checker, 0, &unused) == CSGRT_OK && strcmp(unused.second, "/ground") == 0);
+        EXPECT(csgrt_checker_load_allowed(checker, "/nowhere") == CSGRT_ERROR_FILE);
+        request.min_depth = 0;
+        EXPECT(csgrt_checker_check(checker, &request, &result) == CSGRT_ERROR_USAGE);
+        csgrt_checker_free(checker);
+        settings.progress = end_at_once;
+        EXPECT(csgrt_checker_create(next, &settings, &checker) == CSGRT_OK);
+        EXPECT(csgrt_checker_check(checker, NULL, &result) == CSGRT_OK && !result.is_complete);
+    }
+
+    csgrt_checker_free(checker);
     csgrt_measurer_free(measurer);
     csgrt_verifier_free(verifier);
     csgrt_edit_free(edit);

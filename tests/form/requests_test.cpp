@@ -80,6 +80,14 @@ std::string c_members(const std::string& name) {
         return "const csgrt_plane* " + name + ";\n    size_t " + name + "_count;";
     else if constexpr (std::is_same_v<Value, std::vector<Density>>)
         return "const csgrt_density* " + name + ";\n    size_t density_count;";
+    else if constexpr (std::is_same_v<Value, std::vector<AllowedOverlap>>)
+        return "const csgrt_allowed_overlap* " + name + ";\n    size_t " + name + "_count;";
+    else if constexpr (std::is_same_v<Value, Ray>)
+        return "csgrt_ray " + name + ";";
+    else if constexpr (std::is_same_v<Value, Estimate>)
+        return "csgrt_estimate " + name + ";";
+    else if constexpr (std::is_same_v<Value, std::array<std::uint32_t, 2>>)
+        return "uint32_t " + name + "[2];";
     else if constexpr (std::is_same_v<Value, std::array<std::uint32_t, 3>>)
         return "uint32_t " + name + "[3];";
     else if constexpr (std::is_same_v<Value, Camera>)
@@ -103,17 +111,20 @@ std::string c_name() {
     return "csgrt_" + std::string(form::of<S>.head.name);
 }
 
+template <class Member>
+constexpr bool is_listed = std::is_same_v<decltype(Member::kind), form::Listed>;
+
 /// C's struct as csgrt.h has it.
 template <class S>
 std::string c_struct(bool is_sized = true) {
     const S usual_struct{};
     std::string text = "typedef struct " + c_name<S>() + " {\n" + (is_sized ? "    size_t size;\n" : "");
-    form::for_members(form::of<S>, [&](const auto& member) {
-        using Value = std::remove_cvref_t<decltype(form::member_of(member, std::declval<S&>()))>;
+    form::for_members(form::of<S>, [&]<class Member>(const Member& member) {
+        using Value = std::conditional_t<is_listed<Member>, std::size_t,
+                                         std::remove_cvref_t<decltype(form::member_of(member, std::declval<S&>()))>>;
         if constexpr (std::is_same_v<Value, Finish>) return;  // csgrt_model_finish() gives it
-        const Value& usual = form::member_of(member, usual_struct);
-        if (const std::string sentence = form::whole_sentence(member, usual); !sentence.empty())
-            text += folded("    ///", "    ///", sentence);
+        const std::string sentence = form::whole_sentence(member, form::member_of(member, usual_struct));
+        if (!sentence.empty()) text += folded("    ///", "    ///", sentence);
         text += "    " + c_members<Value>(std::string(member.key.member)) + "\n";
     });
     return text + "} " + c_name<S>() + ";\n";
@@ -131,6 +142,12 @@ std::string c_value(const Value& value) {
         return "{" + shortest(value.x) + ", " + shortest(value.y) + ", " + shortest(value.z) + "}";
     else if constexpr (std::is_same_v<Value, std::array<std::uint32_t, 3>>)
         return "{" + c_value(value[0]) + ", " + c_value(value[1]) + ", " + c_value(value[2]) + "}";
+    else if constexpr (std::is_same_v<Value, std::array<std::uint32_t, 2>>)
+        return "{" + c_value(value[0]) + ", " + c_value(value[1]) + "}";
+    else if constexpr (std::is_same_v<Value, Estimate>)
+        return "{" + c_value(value.value) + ", " + c_value(value.half_width) + "}";
+    else if constexpr (std::is_same_v<Value, Ray>)
+        return "{" + c_value(value.origin) + ", " + c_value(value.direction) + "}";
     else if constexpr (std::is_same_v<Value, Box>)
         return "{" + c_value(value.low) + ", " + c_value(value.high) + "}";
     else if constexpr (std::is_same_v<Value, std::optional<double>>)
@@ -152,10 +169,10 @@ std::string c_defaults() {
     for (const char c : name) text += static_cast<char>(std::toupper(c));
     text += " {sizeof(" + name + ")";
     const S usual{};
-    form::for_members(form::of<S>, [&](const auto& member) {
+    form::for_members(form::of<S>, [&]<class Member>(const Member& member) {
         const auto& value = form::member_of(member, usual);
         if constexpr (!std::is_same_v<std::remove_cvref_t<decltype(value)>, Finish>) {
-            const std::string next = c_value(value);
+            const std::string next = is_listed<Member> ? "0" : c_value(value);
             const std::size_t line = text.size() - (text.rfind('\n') + 1);
             text += line + next.size() > 114 ? ", \\\n    " : ", ";
             text += next;
@@ -211,6 +228,9 @@ std::vector<std::string> made_of_header() {
             c_struct<PixelRectangle>(false),
             c_struct<View>(),
             c_struct<MeasureRequest>(),
+            c_struct<CheckRequest>(),
+            c_struct<CheckResult>(),
+            c_struct<FoundOverlap>(),
             c_defaults<Settings>(),
             c_defaults<DeviceInfo>(),
             c_defaults<LoadOptions>(),
@@ -220,7 +240,10 @@ std::vector<std::string> made_of_header() {
             c_defaults<ChildInfo>(),
             c_defaults<Statistics>(),
             c_defaults<View>(),
-            c_defaults<MeasureRequest>()};
+            c_defaults<MeasureRequest>(),
+            c_defaults<CheckRequest>(),
+            c_defaults<CheckResult>(),
+            c_defaults<FoundOverlap>()};
 }
 
 /// Replaces what begins as `made` does: up to its last line, or of a macro to the end of its lines.
@@ -301,7 +324,8 @@ std::string settings_page() {
            list<Camera>("csgrt::Camera") + list<Fields>("csgrt::Fields") + list<RayRange>("csgrt::RayRange") +
            list<Slice>("csgrt::Slice") + list<RegionInfo>("csgrt::RegionInfo") + list<SolidInfo>("csgrt::SolidInfo") +
            list<ChildInfo>("csgrt::ChildInfo") + list<MeasureRequest>("csgrt::MeasureRequest") +
-           list<CheckRequest>("csgrt::CheckRequest") + list<DeviceInfo>("csgrt::DeviceInfo") +
+           list<CheckRequest>("csgrt::CheckRequest") + list<CheckResult>("csgrt::CheckResult") +
+           list<FoundOverlap>("csgrt::FoundOverlap") + list<DeviceInfo>("csgrt::DeviceInfo") +
            list<Statistics>("csgrt::Statistics") + "## Names and their numbers\n\n" +
            names_line("Precision", every_precision) + names_line("Tolerance", every_tolerance) +
            names_line("Light", lighting_names) + names_line("State", state_names) +
@@ -446,6 +470,8 @@ TEST_CASE("each sentence stands in the C++ header") {
     require_sentences<Statistics>("include/csgrt/statistics.hpp");
     require_sentences<MeasureRequest>("include/csgrt/measure.hpp");
     require_sentences<CheckRequest>("include/csgrt/check.hpp");
+    require_sentences<CheckResult>("include/csgrt/check.hpp");
+    require_sentences<FoundOverlap>("include/csgrt/check.hpp");
 }
 
 TEST_CASE("C's structs and docs/settings.md are made of the descriptions") {
@@ -478,6 +504,9 @@ TEST_CASE("C's functions for defaults give those of C++") {
     csgrt_measure_request request;
     csgrt_measure_request_init(&request);
     require_same_members(c::described<MeasureRequest>(request, "request"), MeasureRequest{});
+    csgrt_check_request check;
+    csgrt_check_request_init(&check);
+    require_same_members(c::described<CheckRequest>(check, "request"), CheckRequest{});
     csgrt_camera camera;
     csgrt_camera_init(&camera);
     require_same_members(c::camera_of(&camera), Camera{});

@@ -45,7 +45,7 @@ Status run(const CheckArguments& arguments) {
                                 "has no end: only its part within the box of the others was searched"});
         table = to_text(result, request, model, table_width());
         if (!arguments.json.empty()) json = to_json(result, request, model);
-        if (!arguments.junit.empty()) junit = to_junit(result, request, model, arguments.scene);
+        if (!arguments.junit.empty()) junit = to_junit(result, model, arguments.scene);
         if (!arguments.rays.empty()) rays = to_rays(result, model);
     }
     for (const AllowedOverlap& row : result.unused)
@@ -59,7 +59,7 @@ Status run(const CheckArguments& arguments) {
     const bool is_taken = std::ranges::any_of(outputs, [](const NamedFile& file) { return file.path == "-"; });
     if (!is_taken) print(table);
     if (interrupted()) return Status::interrupted;
-    return result.new_overlaps(request.min_depth) > 0 ? Status::differs : Status::ok;
+    return result.new_overlaps > 0 ? Status::differs : Status::ok;
 }
 
 }  // namespace csgrt::cli

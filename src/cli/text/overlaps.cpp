@@ -31,10 +31,6 @@ std::string row_of(const FoundOverlap& o, const Model& model, const char* betwee
     return pattern_of(model.regions()[o.regions[0]].path) + between + pattern_of(model.regions()[o.regions[1]].path);
 }
 
-bool is_new(const FoundOverlap& o, const CheckRequest& request) {
-    return !o.is_allowed && o.depth >= request.min_depth;
-}
-
 /// Bytes at the front of a text that are one character of UTF-8 that XML may have; 0: they are none.
 std::size_t character(std::string_view text) {
     const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
@@ -84,7 +80,7 @@ std::string to_text(const CheckResult& result, const CheckRequest& request, cons
             right("depth mm", 10) + right("at most", 11) + right("volume mm^3", 14) + right("+-", 9) + "  place mm\n";
     for (const FoundOverlap& o : result.overlaps) {
         const bool is_known = o.depth > 0, is_near = is_known && o.is_near_limit;
-        const bool is_less = !o.is_allowed && !is_new(o, request) && result.is_complete;
+        const bool is_less = !o.is_allowed && !o.is_new && result.is_complete;
         has_near |= is_near;
         allowed += o.is_allowed;
         less_deep += is_less;
@@ -100,9 +96,9 @@ std::string to_text(const CheckResult& result, const CheckRequest& request, cons
     }
     if (!text.empty()) text += "\n";
     if (has_near) text += "~ is near the limit: another seed may find the depth on its other side.\n";
-    text += counted(result.overlaps.size(), "overlap") + ": " + std::to_string(result.new_overlaps(request.min_depth)) +
-            " new at least " + format_number("%g", request.min_depth) + " mm deep, " + std::to_string(allowed) +
-            " allowed, " + std::to_string(less_deep) + " less deep\n" + counted(result.candidates, "pair") +
+    text += counted(result.overlaps.size(), "overlap") + ": " + std::to_string(result.new_overlaps) + " new at least " +
+            format_number("%g", request.min_depth) + " mm deep, " + std::to_string(allowed) + " allowed, " +
+            std::to_string(less_deep) + " less deep\n" + counted(result.candidates, "pair") +
             " of regions may overlap; shallower than " + format_number("%g", request.min_depth / 2) +
             (result.is_complete ? " mm, not listed: " : " mm, or not measured: ") + std::to_string(result.shallow) +
             "\n" + counted(result.rays, "ray") + ", " + format_number("%.1f", result.seconds) + " s\n";
@@ -116,7 +112,7 @@ std::string to_json(const CheckResult& result, const CheckRequest& request, cons
         ",\n  \"effort\": " + json_figure(request.effort) + ",\n  \"complete\": " + truth(result.is_complete) +
         ",\n  \"candidates\": " + std::to_string(result.candidates) +
         ",\n  \"shallow\": " + std::to_string(result.shallow) + ",\n  \"rays\": " + std::to_string(result.rays) +
-        ",\n  \"new\": " + std::to_string(result.new_overlaps(request.min_depth)) + ",\n  \"overlaps\": [";
+        ",\n  \"new\": " + std::to_string(result.new_overlaps) + ",\n  \"overlaps\": [";
     const char* next = "\n    ";
     for (const FoundOverlap& o : result.overlaps) {
         text += std::string(next) + "{\"regions\": [" + json_text(model.regions()[o.regions[0]].path) + ", " +
@@ -124,7 +120,7 @@ std::string to_json(const CheckResult& result, const CheckRequest& request, cons
                 ", " + std::to_string(o.regions[1]) + "], \"depth\": " + (o.depth > 0 ? json_figure(o.depth) : "null") +
                 ", \"estimate\": " + truth(o.is_estimate) + ", \"depth_at_most\": " + json_figure(o.depth_at_most) +
                 ", \"volume\": " + json_estimate(o.volume) + ", \"place\": " + json_point(o.place) +
-                ", \"box\": " + json_corners(o.box) + ", \"new\": " + truth(is_new(o, request)) +
+                ", \"box\": " + json_corners(o.box) + ", \"new\": " + truth(o.is_new) +
                 ", \"allowed\": " + truth(o.is_allowed) + ", \"near_limit\": " + truth(o.is_near_limit) +
                 ", \"origin\": " + json_point(o.ray.origin) + ", \"direction\": " + json_point(o.ray.direction) +
                 ", \"range\": [" + json_figure(o.t_in) + ", " + json_figure(o.t_out) +
@@ -146,14 +142,13 @@ std::string to_json(const CheckResult& result, const CheckRequest& request, cons
     return text + "]\n}\n";
 }
 
-std::string to_junit(const CheckResult& result, const CheckRequest& request, const Model& model,
-                     const std::string& scene) {
+std::string to_junit(const CheckResult& result, const Model& model, const std::string& scene) {
     const std::string of = " classname=\"" + xml_text(scene) + "\" name=\"";
     std::string tests;
     std::size_t count = result.overlaps.size();
     for (const FoundOverlap& o : result.overlaps) {
         tests += "    <testcase" + of + xml_text(row_of(o, model)) + "\"";
-        if (!is_new(o, request)) {
+        if (!o.is_new) {
             tests += "/>\n";
             continue;
         }
@@ -172,9 +167,8 @@ std::string to_junit(const CheckResult& result, const CheckRequest& request, con
         tests += "    <testcase" + of + "no regions overlap\"/>\n";
     }
     const std::string head = " name=\"csgrt check\" tests=\"" + std::to_string(count) + "\" failures=\"" +
-                             std::to_string(result.new_overlaps(request.min_depth)) + "\" errors=\"" +
-                             (result.is_complete ? "0" : "1") + "\" time=\"" + format_number("%.3f", result.seconds) +
-                             "\"";
+                             std::to_string(result.new_overlaps) + "\" errors=\"" + (result.is_complete ? "0" : "1") +
+                             "\" time=\"" + format_number("%.3f", result.seconds) + "\"";
     return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites" + head + ">\n  <testsuite" + head + ">\n" + tests +
            "  </testsuite>\n</testsuites>\n";
 }

@@ -15,8 +15,7 @@ std::string to_text(const CheckResult& result, const CheckRequest& request, cons
 std::string to_json(const CheckResult& result, const CheckRequest& request, const Model& model);
 
 /// JUnit's XML: a test for each overlap, which fails if the overlap is new, or one that passes. `scene`: its name.
-std::string to_junit(const CheckResult& result, const CheckRequest& request, const Model& model,
-                     const std::string& scene);
+std::string to_junit(const CheckResult& result, const Model& model, const std::string& scene);
 
 /// For each overlap a comment, and a ray that shows it.
 std::string to_rays(const CheckResult& result, const Model& model);
