@@ -1,6 +1,6 @@
 """add_keywords.py FOLDER RAW.pyi STUB.pyi: adds to nanobind's stub of FOLDER's module _core what nanobind cannot say:
-the types of keywords that set members of Settings, Camera, View and MeasureRequest, and names of types, which the
-module has as texts.
+the types of keywords that set members of Settings, Camera, View, MeasureRequest and CheckRequest, and names of types,
+which the module has as texts.
 """
 
 import re
@@ -30,5 +30,6 @@ for name, value in vars(_core).items():
         kind = type(next(iter(value.values()))).__name__
         stub = re.sub(rf"^{name}: dict = .*$", f"{name}: dict[str, {kind}]", stub, flags=re.MULTILINE)
 parts = ["import typing\nfrom typing import TypedDict\n" + stub.strip(), keywords("SettingsKeywords", stub, "Settings"),
-         keywords("ViewKeywords", stub, "Camera", "View"), keywords("MeasureKeywords", stub, "MeasureRequest")]
+         keywords("ViewKeywords", stub, "Camera", "View"), keywords("MeasureKeywords", stub, "MeasureRequest"),
+         keywords("CheckKeywords", stub, "CheckRequest")]
 Path(sys.argv[3]).write_text("\n\n\n".join(parts) + "\n")

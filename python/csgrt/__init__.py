@@ -10,15 +10,16 @@ Lengths are millimetres, angles degrees, coordinates right-handed with z up, mat
 along a ray count lengths of its direction. Failures are csgrt.Error; see there.
 """
 
-from ._core import Camera, MeasureRequest, Settings, View, device_rows, rays_parallel, rays_pinhole
+from ._core import Camera, CheckRequest, MeasureRequest, Settings, View, device_rows, rays_parallel, rays_pinhole
 from ._core import version as __version__
 from ._image import Image
 from ._page import Page
 from ._scene import Scene, Subtree, load, parse
 from ._solids import Part, box, cone, cylinder, rotate, scale, solid, sphere, torus, translate
 from ._values import (
-    CellVolumes, Child, Device, DeviceName, Diagnostic, Error, Estimate, Hits, Material, Measured, MeasuredGrid,
-    Measurement, Partitions, Pick, Place, Region, Regions, SceneWarning, Solid, Verification, Wall, Warning,
+    CellVolumes, CheckResult, Child, Device, DeviceName, Diagnostic, Error, Estimate, FoundOverlap, Hits, Material,
+    Measured, MeasuredGrid, Measurement, Partitions, Pick, Place, Region, Regions, SceneWarning, Solid, Verification,
+    Wall, Warning,
 )
 
 
@@ -28,9 +29,9 @@ def devices() -> list[Device]:
 
 
 __all__ = [
-    "Camera", "CellVolumes", "Child", "Device", "DeviceName", "Diagnostic", "Error", "Estimate", "Hits", "Image",
-    "Material", "MeasureRequest", "Measured", "MeasuredGrid", "Measurement", "Page", "Part", "Partitions", "Pick",
-    "Place", "Region", "Regions", "Scene", "SceneWarning", "Settings", "Solid", "Subtree", "Verification", "View",
-    "Wall", "Warning", "box", "cone", "cylinder", "devices", "load", "parse", "rays_parallel", "rays_pinhole", "rotate",
-    "scale", "solid", "sphere", "torus", "translate",
+    "Camera", "CellVolumes", "CheckRequest", "CheckResult", "Child", "Device", "DeviceName", "Diagnostic", "Error",
+    "Estimate", "FoundOverlap", "Hits", "Image", "Material", "MeasureRequest", "Measured", "MeasuredGrid",
+    "Measurement", "Page", "Part", "Partitions", "Pick", "Place", "Region", "Regions", "Scene", "SceneWarning",
+    "Settings", "Solid", "Subtree", "Verification", "View", "Wall", "Warning", "box", "cone", "cylinder", "devices",
+    "load", "parse", "rays_parallel", "rays_pinhole", "rotate", "scale", "solid", "sphere", "torus", "translate",
 ]

@@ -16,7 +16,7 @@ from ._image import Image
 from ._page import Page
 from ._solids import Part, scene_text, shape_text, sphere
 from ._values import (
-    Child, Measurement, Pick, Place, Region, Regions, SceneWarning, Solid, Warning, did_you_mean, unmasked,
+    CheckResult, Child, Measurement, Pick, Place, Region, Regions, SceneWarning, Solid, Warning, did_you_mean, unmasked,
 )
 
 if TYPE_CHECKING:
@@ -34,6 +34,7 @@ if TYPE_CHECKING:
 _TAKEN = {"float": "a number", "int": "a whole number", "bool": "True or False", "str": "a string",
           "float | None": "a number or None", "csgrt._values.DeviceChoice": "a number or a name",
           "csgrt._values.ThreeNumbers | None": "three numbers or None",
+          "csgrt._values.AllowedPairs": "a list of pairs of patterns of paths, or a file's path",
           "dict[int | str, float]": "a dict of g/cm^3 by numbers of materials or by paths",
           "collections.abc.Sequence[tuple[csgrt._values.ThreeNumbers, float]]": "a list of (normal, distance)"}
 
@@ -288,6 +289,18 @@ class Scene(_core.Scene):
         wanted = _core.MeasureRequest()
         _assign(request, "a measure has no", wanted)
         return Measurement(*self._measurement(wanted))
+
+    def check(self, **request: Unpack[_core.CheckKeywords]) -> CheckResult:
+        """The pairs of regions that overlap, each with a place, a depth, a volume and a ray that shows it.
+
+        request: attributes of csgrt.CheckRequest: min_depth=0.1 (mm), allowed=[("/bolt*", "/plate")] or a file, ...
+        It checks the model of the last commit(), also if another thread commits meanwhile.
+        Raises csgrt.Error (usage, out_of_memory, device_fault; of the file: file, scene), TypeError (members and their
+        values).
+        """
+        wanted = _core.CheckRequest()
+        _assign(request, "a check has no", wanted)
+        return CheckResult(*self._checked(wanted))
 
     # ---- Views
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, SupportsIndex, TypedDict, Typ
 
 import numpy as np
 
-from ._core import child_members, device_members, region_members, solid_members
+from ._core import child_members, device_members, overlap_members, region_members, solid_members
 
 
 class DeviceName(str):
@@ -17,7 +17,8 @@ class DeviceName(str):
 
 
 if TYPE_CHECKING:  # numpy.typing takes as long to load as csgrt
-    from collections.abc import Callable, Iterable
+    import os
+    from collections.abc import Callable, Iterable, Iterator
     from typing import Literal, Union
 
     from numpy.typing import NDArray
@@ -29,6 +30,7 @@ if TYPE_CHECKING:  # numpy.typing takes as long to load as csgrt
     TwoPoints = Union[Sequence[ThreeNumbers], NDArray[np.floating[Any]], NDArray[np.integer[Any]]]
     Triple = tuple[float, float, float]
     Bounds = tuple[Triple, Triple]
+    AllowedPairs = Union[Sequence[tuple[str, str]], str, os.PathLike[str]]
 
 T = TypeVar("T")
 
@@ -422,6 +424,66 @@ class Measurement:
     def mass(self) -> dict[str, Estimate]:
         """The masses of all parts by their names, kg."""
         return {name: part.mass for name, part in self._by_name.items()}
+
+
+class FoundOverlap(NamedTuple):
+    """Two regions that overlap."""
+
+    paths: tuple[str, str]
+    link: str
+    regions: tuple[int, int]
+    place: Triple
+    depth: float
+    depth_at_most: float
+    volume: Estimate
+    box: Bounds
+    ray: tuple[Triple, Triple]
+    t_in: float
+    t_out: float
+    is_allowed: bool
+    is_near_limit: bool
+    is_new: bool
+
+
+_describe(FoundOverlap, paths="Those of the regions",
+          link="What follows the address of `csgrt view` in a link to the place", **overlap_members)
+
+
+class CheckResult:
+    """What Scene.check() answers: its overlaps, the deepest first. It is false if there are none.
+
+    overlaps: those at least half of the least depth deep. unused: rows of `allowed` that no overlap needs. unbounded:
+    paths of regions without an end, which were searched within the box of the others. new_overlaps: the number of
+    those that are new. candidates: the number of pairs whose boxes overlap. shallow: the number of pairs that overlap
+    by less than half of the least depth. rays: how many were traced. is_complete: always True, since Ctrl-C raises
+    KeyboardInterrupt. seconds: what it took.
+    """
+
+    new_overlaps: int
+    candidates: int
+    shallow: int
+    rays: int
+    is_complete: bool
+    seconds: float
+
+    def __init__(self, rows: Iterable[Any], unused: list[tuple[str, str]], unbounded: list[str],
+                 numbers: Mapping[str, Any]):
+        overlaps = [FoundOverlap(*row) for row in rows]
+        self.overlaps: list[FoundOverlap] = [o._replace(volume=Estimate(*o.volume)) for o in overlaps]
+        self.unused: list[tuple[str, str]] = unused
+        self.unbounded: list[str] = unbounded
+        vars(self).update(numbers)
+
+    def __iter__(self) -> Iterator[FoundOverlap]:
+        return iter(self.overlaps)
+
+    def __len__(self) -> int:
+        return len(self.overlaps)
+
+    @property
+    def new(self) -> list[FoundOverlap]:
+        """The overlaps that are not allowed, and at least the least depth deep."""
+        return [overlap for overlap in self.overlaps if overlap.is_new]
 
 
 class Material(TypedDict, total=False):

@@ -8,6 +8,7 @@
 #include <thread>
 
 #include <form/measure.hpp>
+#include <form/written_back.hpp>
 
 #include "values.hpp"
 
@@ -84,6 +85,7 @@ public:
     const std::string& units() const { return units_; }
     const std::string& title() const { return title_; }
     const Camera& camera() const { return camera_; }
+    const Settings& settings() const { return settings_; }
     const std::shared_ptr<AnswerPool>& answer_pool() const { return answer_pool_; }
 
     /// The paths of what is rendered, if the caller has named some objects.
@@ -458,6 +460,26 @@ Row measurement(LiveScene& scene, const MeasureRequest& request) {
                           result.seconds);
 }
 
+/// The overlaps with the paths of their regions and their links, the other lists of csgrt.CheckResult, and its numbers.
+Row checked(LiveScene& scene, const CheckRequest& request) {
+    const Model model = scene.model();
+    CheckResult result;
+    scene.run([&](Renderer&) { result = Checker(model, scene.settings()).check(request); });
+    const auto path = [&](std::uint32_t region) { return model.regions()[region].path; };
+    Rows overlaps;
+    nb::list unused, unbounded;
+    for (const FoundOverlap& o : result.overlaps)
+        overlaps.append(row_of(o, nb::make_tuple(path(o.regions[0]), path(o.regions[1])), link_of(o, model)));
+    for (const AllowedOverlap& row : result.unused) unused.append(nb::make_tuple(row.first, row.second));
+    for (const std::uint32_t region : result.unbounded) unbounded.append(path(region));
+    nb::dict numbers;
+    form::for_members(form::of<CheckResult>, [&](const auto& member) {
+        if constexpr (!std::is_same_v<std::remove_cvref_t<decltype(member.kind)>, form::Listed>)
+            numbers[std::string(member.key.member).c_str()] = result.*member.at;
+    });
+    return nb::make_tuple(overlaps, unused, unbounded, numbers);
+}
+
 }  // namespace
 
 void bind_scene(nb::module_& module) {
@@ -521,6 +543,7 @@ void bind_scene(nb::module_& module) {
              "Returns a dict: passed (no decided ray is wrong, no bit differs), rays, hits, decided, ties, wrong, "
              "bit_differences, ends,\nfarthest_mm, worst_ulps (errors of distances), device. Raises csgrt.Error.")
         .def("_measurement", &measurement)
+        .def("_checked", &checked)
         .def("_set_color", [](LiveScene& scene, const std::string& path,
                               const Vec3& color) { scene.edit([&](Edit& e) { e.set_color(path, color); }); })
         .def("_set_finish",

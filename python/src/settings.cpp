@@ -1,6 +1,7 @@
 // How csgrt computes and what a picture shows, as classes: the attributes, and what is said of them, are those of the
 // descriptions (src/form/requests.hpp).
 #include <form/camera.hpp>
+#include <form/check.hpp>
 #include <form/measure.hpp>
 
 #include <nanobind/stl/set.h>
@@ -25,6 +26,7 @@ void named(nb::class_<S>& bound, const char* name, Value S::*member, const Names
 }
 
 using Planes = std::vector<std::pair<Vec3, double>>;  ///< (normal, distance)
+using Pairs = std::vector<std::pair<std::string, std::string>>;
 
 template <class S, class Member>
 void bind_member(nb::class_<S>& bound, const Member& member) {
@@ -35,6 +37,8 @@ void bind_member(nb::class_<S>& bound, const Member& member) {
     if constexpr (std::is_same_v<Value, std::vector<Plane>>) sentence += " A list of (normal, distance).";
     if constexpr (std::is_same_v<Value, std::vector<Density>>)
         sentence += " A dict of g/cm^3 by the numbers of materials or by paths.";
+    if constexpr (std::is_same_v<Value, std::vector<AllowedOverlap>>)
+        sentence += " A list of pairs of patterns of paths, or the path of a file that has one.";
     const char* const doc = sentence.c_str();  // nanobind copies it
     const auto at = member.at;
     if constexpr (std::is_same_v<Value, std::function<bool(double)>> ||
@@ -82,6 +86,29 @@ void bind_member(nb::class_<S>& bound, const Member& member) {
             },
             nb::for_getter(nb::sig("def densities(self) -> dict[int | str, float]")),
             nb::for_setter(nb::sig("def densities(self, arg: dict[int | str, float], /) -> None")), doc);
+    } else if constexpr (std::is_same_v<Value, std::vector<AllowedOverlap>>) {
+        bound.def_prop_rw(
+            name,
+            [at](const S& s) {
+                Pairs pairs;
+                for (const AllowedOverlap& row : s.*at) pairs.emplace_back(row.first, row.second);
+                return pairs;
+            },
+            [at](S& s, const nb::object& given) {
+                if (nb::isinstance<nb::str>(given) || nb::hasattr(given, "__fspath__")) {
+                    s.*at = load_allowed_overlaps(nb::cast<std::string>(nb::steal(PyOS_FSPath(given.ptr()))));
+                    return;
+                }
+                Pairs pairs;
+                bool is_list = nb::try_cast(given, pairs);
+                if (is_list)  // "ab" is a pair of letters, too
+                    for (const nb::handle row : given) is_list &= !nb::isinstance<nb::str>(row);
+                if (!is_list) throw nb::type_error("no pairs of patterns");
+                (s.*at).clear();
+                for (const auto& [first, second] : pairs) (s.*at).push_back({first, second});
+            },
+            nb::for_getter(nb::sig("def allowed(self) -> list[tuple[str, str]]")),
+            nb::for_setter(nb::sig("def allowed(self, arg: csgrt._values.AllowedPairs, /) -> None")), doc);
     } else if constexpr (std::is_same_v<Value, std::optional<Vec3>> || std::is_same_v<Value, std::optional<double>>) {
         bound.def_rw(name, at, nb::none(), doc);
     } else {
@@ -112,6 +139,7 @@ void bind_settings(nb::module_& module) {
         });
     bind<MeasureRequest>(module, "MeasureRequest", "What Scene.measure() shall reach, and at what cost.")
         .def(nb::init<>());
+    bind<CheckRequest>(module, "CheckRequest", "What Scene.check() looks for.").def(nb::init<>());
     bind<View>(module, "View", "What a picture shows.").def(nb::init<>());
 }
 

@@ -9,6 +9,7 @@
 
 #include <csgrt/csgrt.hpp>
 #include <form/answers.hpp>
+#include <form/check.hpp>
 #include <nanobind/nanobind.h>
 #include <nanobind/ndarray.h>
 #include <nanobind/stl/array.h>
@@ -135,6 +136,12 @@ nb::object row_of(const S& s, const First&... first) {
         using Value = std::remove_cvref_t<decltype(value)>;
         if constexpr (std::is_enum_v<Value>)
             row.append(std::string(name_of(*member.kind.names, value)));
+        else if constexpr (std::is_same_v<Value, Ray>)
+            row.append(row_of(value));
+        else if constexpr (std::is_same_v<Value, Estimate>)
+            row.append(nb::make_tuple(value.value, value.half_width));
+        else if constexpr (std::is_same_v<Value, std::array<std::uint32_t, 2>>)
+            row.append(nb::make_tuple(value[0], value[1]));
         else if constexpr (!std::is_same_v<Value, Finish>)
             row.append(value);
     });

@@ -2,10 +2,14 @@
 // descriptions. Options that set two members, and members that several options set, have code here.
 #pragma once
 
+#include <cmath>
+#include <cstdio>
 #include <optional>
 #include <string>
 #include <type_traits>
 #include <vector>
+
+#include <csgrt/check.hpp>
 
 #include "base/decimal.hpp"
 #include "base/shell_word.hpp"
@@ -107,6 +111,32 @@ inline std::string model_words(const std::string& scene, const std::vector<std::
 inline std::string drawing_options(const View& view, const std::vector<Look>& looks) {
     return " --size " + std::to_string(view.width) + "x" + std::to_string(view.height) + options_text(view.camera) +
            options_text(view) + options_text(looks);
+}
+
+/// What follows the address of `csgrt view` in a link to an overlap, which src/view/page/link.mjs reads. All other
+/// regions are ghosts.
+inline std::string link_of(const FoundOverlap& overlap, const Model& model) {
+    const auto coded = [](const char* form, char c) {
+        char text[8];
+        std::snprintf(text, sizeof text, form, static_cast<unsigned>(static_cast<unsigned char>(c)));
+        return std::string(text);
+    };
+    std::string looks = R"({"path":"/","state":"ghost"})", selected, link = "#";
+    for (const std::uint32_t region : overlap.regions) {
+        std::string path;
+        for (const char c : model.regions()[region].path)
+            path += c == '"' || c == '\\' || (c >= 0 && c < ' ') ? coded("\\u%04x", c) : std::string(1, c);
+        looks += R"(,{"path":")" + path + R"(","state":"shown"})";
+        selected += (selected.empty() ? "\"" : ",\"") + path + "\"";
+    }
+    const auto& [low, high] = overlap.box;
+    const double size = 3 * std::hypot(high.x - low.x, high.y - low.y, high.z - low.z);
+    const std::string view = R"({"camera":{"center":[)" + shortest(overlap.place) + R"(],"view_size":)" +
+                             shortest(size) + R"(},"show":"overlap","looks":[)" + looks + R"(],"selected":[)" +
+                             selected + "]}";
+    constexpr std::string_view plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./";
+    for (const char c : view) link += plain.find(c) != plain.npos ? std::string(1, c) : coded("%%%02X", c);
+    return link;
 }
 
 }  // namespace csgrt

@@ -183,5 +183,5 @@ def test_the_package_has_stubs_and_every_name_a_docstring():
         assert "Alias for field" not in pydoc.render_doc(getattr(csgrt, name)), name
     assert all(getattr(csgrt.Scene, name).__doc__ for name in dir(csgrt.Scene) if not name.startswith("_"))
     for name in ("cast_rays", "partitions", "test_occlusions", "region_at", "slice", "render", "pick", "verify",
-                 "measure"):
+                 "measure", "check"):
         assert "Raises" in getattr(csgrt.Scene, name).__doc__ or name in ("test_occlusions", "pick"), name

@@ -7,6 +7,7 @@ import pickle
 import re
 import signal
 import sys
+import urllib.parse
 import warnings
 
 import numpy as np
@@ -397,6 +398,48 @@ def test_the_model_stays_while_it_is_measured():
     assert told
     with pytest.raises(csgrt.Error, match="there is no commit to undo"):
         scene.undo()
+
+
+def test_check_finds_overlaps(tmp_path):
+    box, low = csgrt.box((10, 10, 10)), csgrt.solid("half", normal=(0, 0, 1), distance=-1)
+    scene = csgrt.Scene({"left": box, "right": box.translate((9, 0, 0)), "touching": box.translate((0, 10, 0)),
+                         "ground": low})
+    result = scene.check()
+    assert len(result) == 1 and list(result) == result.overlaps == result.new and result.is_complete
+    assert result.new_overlaps == 1 and result.candidates >= 1 and result.shallow == 0 and result.rays > 0
+    assert result.unbounded == ["/ground"] and result.unused == []
+    overlap = result.overlaps[0]
+    assert overlap.paths == ("/left", "/right") == tuple(scene.regions[i].path for i in overlap.regions)
+    assert 0.99 < overlap.depth <= overlap.depth_at_most < 1.01 and not overlap.is_allowed and not overlap.is_near_limit
+    assert abs(overlap.volume.nominal - 100) < 2.5 * overlap.volume.half_width
+    assert abs(overlap.place[0] - 9.5) < 0.01 and np.allclose(overlap.box, ((9, 0, 0), (10, 10, 10)), atol=0.6)
+    origin, direction = np.asarray(overlap.ray)
+    for t in (overlap.t_in, overlap.t_out):
+        assert np.all(np.abs(origin + t * direction - (9.5, 5, 5)) < (0.51, 5.1, 5.1))
+    link = json.loads(urllib.parse.unquote(overlap.link.removeprefix("#")))
+    assert link["camera"]["center"] == list(overlap.place) and link["selected"] == ["/left", "/right"]
+    assert scene.check().overlaps == result.overlaps
+
+    allowed = tmp_path / "allowed"
+    allowed.write_text("/right /l*  # welded\n/left /ground\n")
+    for given in (allowed, str(allowed), [("/right", "/l*"), ("/left", "/ground")]):
+        told = scene.check(allowed=given)
+        assert told.new == [] and told.overlaps[0].is_allowed and told.unused == [("/left", "/ground")]
+    assert not scene.check(min_depth=3)
+    request = csgrt.CheckRequest()
+    request.allowed = allowed
+    assert request.allowed == [("/right", "/l*"), ("/left", "/ground")] and request.min_depth == 0.01
+    for wrong, text in (({"min_dept": 1}, "did you mean 'min_depth'"), ({"seed": "x"}, "a whole number"),
+                        ({"allowed": 3}, "a list of pairs of patterns of paths, or a file's path"),
+                        ({"allowed": [("ab", "cd", "e")]}, "a list of pairs"),
+                        ({"allowed": ("ab", "cd")}, "a list of pairs")):
+        with pytest.raises(TypeError, match=text):
+            scene.check(**wrong)
+    with pytest.raises(csgrt.Error, match="greater than 0 mm"):
+        scene.check(min_depth=0)
+    with pytest.raises(csgrt.Error) as missing:
+        scene.check(allowed="/nowhere")
+    assert missing.value.status == "file"
 
 
 def test_the_command_writes_volumes_in_cells_for_numpy(command, scenes, tmp_path):
