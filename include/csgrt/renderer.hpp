@@ -94,6 +94,10 @@ public:
     /// csgrt:regions and csgrt:solids are JSON texts such as {"17": "/all.g/x.r"}, with the ids that occur in the
     /// picture.
     void name_pixels(Image& image) const;
+    /// Adds the pairs of regions that overlap in a picture of the view to the picture's header, if it has the channel
+    /// `overlap`. The attribute csgrt:overlaps is a JSON text such as {"count": 1, "pairs": [["/a.r", "/b.r"]]}, with
+    /// the first 256 pairs. Traces the rays of the pixels that have overlaps. Throws as partitions() does.
+    void name_overlaps(const View& view, Image& image);
 
     // The references are valid as long as the Renderer.
 

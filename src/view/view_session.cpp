@@ -515,7 +515,10 @@ void ViewSession::exr(const Request& request, const Client& client) {
     Image image;
     double ms = 0;
     if (!memory || !draw_in_passes(model, page.view, client.is_wanted, image, ms) ||
-        !draw_with(slow_, model, client.is_wanted, [&](Renderer& renderer) { renderer.name_pixels(image); }))
+        !draw_with(slow_, model, client.is_wanted, [&](Renderer& renderer) {
+            renderer.name_pixels(image);
+            renderer.name_overlaps(page.view, image);
+        }))
         return;
     image.attributes["csgrt:command"] = picture_command(page);
     const PrivateFolder folder;

@@ -56,6 +56,42 @@ TEST_CASE("an EXR names the regions and solids that occur in it, and no others",
     REQUIRE(nothing.status == 0);
 }
 
+TEST_CASE("an EXR names the pairs of regions that overlap in it", "[promise:pictures]") {
+    NEEDS_COMMAND();
+    const Folder folder;
+    const auto overlaps_of = [&](std::vector<std::string> words) {
+        words.insert(words.end(), {"--reference", "--size", "40x30", "-o", folder / "a.exr"});
+        const Result result = run(words);
+        INFO(result.err);
+        REQUIRE(result.status == 0);
+        const csgrt::Image image = csgrt::read_image(folder / "a.exr");
+        const auto found = image.attributes.find("csgrt:overlaps");
+        return found == image.attributes.end() ? std::string() : found->second;
+    };
+    const std::string scene = std::string(std::getenv("CSGRT_SCENES")) + "/overlap.json";
+    const std::string bolt = R"(["/overlap/plate.r", "/overlap/bolt.r"])",
+                      blocks = R"(["/overlap/left.r", "/overlap/right.r"])";
+    CHECK(overlaps_of({scene}) == R"({"count": 2, "pairs": [)" + bolt + ", " + blocks + "]}");
+    CHECK(overlaps_of({scene, "--hide", "/overlap/bolt.r"}) == R"({"count": 1, "pairs": [)" + blocks + "]}");
+    // From azimuth 0, +x: what lies before the cut is not in the picture.
+    const std::vector<std::string> from_x = {scene, "--azimuth", "0", "--elevation", "0", "--perspective", "0"};
+    for (const auto& [place, expected] : {std::pair{"0.0", 2}, {"-19", 1}, {"-31", 0}}) {
+        std::vector<std::string> words = from_x;
+        words.insert(words.end(), {"--clip", std::string("1,0,0:") + place});
+        CAPTURE(place);
+        CHECK(overlaps_of(words).starts_with("{\"count\": " + std::to_string(expected) + ","));
+    }
+    CHECK(overlaps_of({scene, "--first-hit"}).empty());
+
+    std::string solids;  // of 25 balls, each overlaps each
+    for (int i = 0; i < 25; ++i)
+        solids += std::string(i ? "," : "") + "\"" + std::to_string(100 + i) +
+                  "\": {\"type\": \"sphere\", \"center\": [0, 0, " + std::to_string(i) + "], \"radius\": 40}";
+    const std::string many = overlaps_of({folder.write("balls.json", "{\"csgrt\": 1, \"solids\": {" + solids + "}}")});
+    CHECK(many.starts_with(R"({"count": 300, "pairs": [["/100", "/101"], )"));
+    CHECK(std::count(many.begin(), many.end(), '[') == 1 + 256);
+}
+
 TEST_CASE("a picture without anything names nothing") {
     NEEDS_COMMAND();
     const Folder folder;

@@ -136,6 +136,7 @@ Statistics render_frames(Scene scene, const RenderArguments& arguments, const Vi
     }
     image = framebuffer.take();
     renderer->name_pixels(image);
+    renderer->name_overlaps(view, image);
     report(renderer.new_warnings());
     return median_of(frames);
 }
