@@ -446,7 +446,7 @@ class FoundOverlap(NamedTuple):
 
 
 _describe(FoundOverlap, paths="Those of the regions",
-          link="What follows the address of `csgrt view` in a link to the place", **overlap_members)
+          link="Behind the address that `csgrt view` prints it leads to the overlap", **overlap_members)
 
 
 class CheckResult:

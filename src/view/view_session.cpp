@@ -20,7 +20,9 @@
 #include <csgrt/error.hpp>
 #include <csgrt/scene_io.hpp>
 
+#include "base/parallel.hpp"
 #include "base/private_folder.hpp"
+#include "form/check.hpp"
 #include "form/written_back.hpp"
 #include "scene/vector.hpp"
 #include "view/false_colors.hpp"
@@ -155,6 +157,17 @@ Json to_json(const RegionInfo& region, const Box& box) {
     row["low"] = is_finite(box) ? to_json(box.low) : Json();
     row["high"] = is_finite(box) ? to_json(box.high) : Json();
     return row;
+}
+
+/// The numbers of a described struct.
+template <class S>
+Json numbers_of(const S& s) {
+    Json numbers = Json::object();
+    form::for_members(form::of<S>, [&](const auto& member) {
+        if constexpr (std::is_arithmetic_v<std::remove_cvref_t<decltype(s.*member.at)>>)
+            numbers[std::string(member.key.member)] = s.*member.at;
+    });
+    return numbers;
 }
 
 }  // namespace
@@ -473,14 +486,18 @@ Json ViewSession::pick(const Request& request) {
     for (const Overlap& overlap : pick.along.overlaps)
         overlaps.push_back(
             {{"in", distance(overlap.in)}, {"out", distance(overlap.out)}, {"regions", overlap.regions}});
-    const Vec3 &o = pick.ray.origin, &d = pick.ray.direction;
-    std::string ray;
-    for (const double value : {o.x, o.y, o.z, d.x, d.y, d.z}) ray += (ray.empty() ? "" : " ") + shortest(value);
-    answer.update({{"ray", {{"origin", to_json(o)}, {"direction", to_json(d)}}},
+    answer.update({{"ray", {{"origin", to_json(pick.ray.origin)}, {"direction", to_json(pick.ray.direction)}}},
                    {"partitions", std::move(partitions)},
                    {"overlaps", std::move(overlaps)},
-                   {"shoot", "printf '" + ray + "\\n' | csgrt shoot " + options_.command + " --rays -"}});
+                   {"shoot", shoot_command(pick.ray)}});
     return answer;
+}
+
+std::string ViewSession::shoot_command(const Ray& ray) const {
+    const auto& [o, d] = ray;
+    std::string words;
+    for (const double value : {o.x, o.y, o.z, d.x, d.y, d.z}) words += (words.empty() ? "" : " ") + shortest(value);
+    return "printf '" + words + "\\n' | csgrt shoot " + options_.command + " --rays -";
 }
 
 std::string ViewSession::picture_command(const PageView& page) const {
@@ -534,6 +551,26 @@ void ViewSession::exr(const Request& request, const Client& client) {
     std::ifstream in(path, std::ios::binary);
     for (std::vector<char> block(1 << 18); in.read(block.data(), std::ssize(block)), in.gcount() > 0;)
         client.send_more({block.data(), static_cast<std::size_t>(in.gcount())});
+}
+
+void ViewSession::check(const Request& request, const Client& client) {
+    const CheckRequest wanted{.min_depth = request.number("min_depth")};
+    const Turns::Turn turn(checks_, client.is_wanted);
+    if (!turn) return;
+    const Model model = model_with({}).model;
+    Settings own = settings_;
+    own.threads = (thread_count(own.threads) + 1) / 2;  // frames have the others
+    own.progress = [&client](double) { return client.is_wanted(); };
+    const CheckResult result = Checker(model, own).check(wanted);
+    if (!result.is_complete) return;
+    Json answer = numbers_of(result);
+    answer["overlaps"] = Json::array();
+    for (const FoundOverlap& overlap : result.overlaps) {
+        Json row = numbers_of(overlap);
+        row.update({{"link", link_of(overlap, model)}, {"shoot", shoot_command(overlap.ray)}});
+        answer["overlaps"].push_back(std::move(row));
+    }
+    client.send({answer.dump(-1, ' ', false, Json::error_handler_t::replace)}, 0);
 }
 
 void ViewSession::load_again() {

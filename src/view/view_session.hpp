@@ -54,6 +54,8 @@ public:
     void slice(const Request& request, const Client& client);
     /// Sends a picture as an OpenEXR file. Throws Error if the file cannot be written.
     void exr(const Request& request, const Client& client);
+    /// Sends the regions that overlap in the model as it was loaded, as JSON.
+    void check(const Request& request, const Client& client);
     /// Sends a picture to a page: 4 bytes with the length of a JSON text, the text, and the pixels. A page's newest
     /// request ends the page's earlier ones.
     void frame(const Request& request, const Client& client);
@@ -77,6 +79,7 @@ private:
         Model model;
         std::uint64_t generation;
     };
+    std::string shoot_command(const Ray& ray) const;
     std::string picture_command(const PageView& page) const;
     EditedModel model_with(const std::vector<Look>& looks);
     /// A Renderer, which draws one picture at a time.
@@ -136,6 +139,7 @@ private:
     /// For pictures that take as long as a few passes at most, and slices; for the others, in passes. The second
     /// Renderer is made when it is needed first.
     Drawer quick_, slow_;
+    Turns checks_;
     std::atomic<double> rays_of_pass_{1 << 20};  ///< as many as the last pictures let expect
 };
 

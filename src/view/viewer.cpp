@@ -121,6 +121,7 @@ struct Viewer::Impl {
         send_by("frame", &ViewSession::frame);
         send_by("slice", &ViewSession::slice);
         send_by("exr", &ViewSession::exr);
+        send_by("check", &ViewSession::check);
     }
 
     /// Answers a request that the guard has admitted.

@@ -59,7 +59,7 @@ TEST_CASE("check prints a table of what overlaps, and writes JSON and rays that 
     CHECK(overlap["depth_at_most"].get<double>() >= overlap["depth"].get<double>());
     CHECK(std::abs(overlap["volume"][0].get<double>() - lens) <= 2.5 * overlap["volume"][1].get<double>());
     CHECK(std::abs(overlap["place"][0].get<double>() - 9) < 0.1);
-    CHECK(overlap["view"].get<std::string>().starts_with("#%7B%22camera%22%3A%7B%22center%22%3A%5B"));
+    CHECK(overlap["link"].get<std::string>().starts_with("#%7B%22camera%22%3A%7B%22center%22%3A%5B"));
     CHECK((overlap["new"] == true && overlap["allowed"] == false && overlap["near_limit"] == false));
 
     const Result shot = run({"shoot", scene, "--rays", folder / "rays"});

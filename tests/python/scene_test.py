@@ -419,6 +419,8 @@ def test_check_finds_overlaps(tmp_path):
     link = json.loads(urllib.parse.unquote(overlap.link.removeprefix("#")))
     assert link["camera"]["center"] == list(overlap.place) and link["selected"] == ["/left", "/right"]
     assert scene.check().overlaps == result.overlaps
+    (hostile,) = csgrt.Scene({'a "b\\" 100% \u00fc&#': box, "c\td": box.translate((9, 0, 0))}).check()
+    assert json.loads(urllib.parse.unquote(hostile.link[1:], errors="strict"))["selected"] == list(hostile.paths)
 
     allowed = tmp_path / "allowed"
     allowed.write_text("/right /l*  # welded\n/left /ground\n")

@@ -495,6 +495,8 @@ class Browser(unittest.TestCase):
         page.press("view-iso").press("toggle-cut").press("add-plane").press("cut-0-slice")
         page.click(*page.screen([40, 45, 40]))
         page.press("toggle-save").press("get-command").press("toggle-warnings").press("toggle-display")
+        page.press("toggle-check").press("run-check")
+        page.wait(lambda: page.js("return Boolean(document.querySelector('#overlap-rows button'))"))
         page.press("help-button")
         for dialog in ("help", None):
             page.js(axe)
@@ -573,6 +575,34 @@ class Browser(unittest.TestCase):
         page.keys(Keys.ESCAPE).click(*middle)
         page.js("select(); document.querySelector('#end-rows .overlap button').click()")
         self.assertEqual(page.text("selected-path"), "2 parts")
+
+    def test_overlaps_are_listed_and_shown(self):
+        page = self.page
+        page.press("toggle-cut").press("add-plane")
+        looks, clip = page.view()["looks"], page.view()["clip"]
+        page.press("toggle-check").set("min-depth", "0.1").press("run-check")
+        page.wait(lambda: page.text("run-check") == "Find overlaps")
+        rows = page.id("overlap-rows").find_elements("class name", "line")
+        self.assertEqual([row.text.split() for row in rows], [["back.r,", "twin.r", "20", "mm", "Show"]])
+        self.assertTrue(page.text("check-note").startswith("1 overlap at least 0.1 mm deep."))
+        page.js("document.querySelector('#overlap-rows button').click()")
+        page.idle()
+        view = page.view()
+        self.assertEqual(page.js("return selection"), ["/all/pair/back.r", "/all/pair/twin.r"])
+        self.assertAlmostEqual(view["camera"]["center"][0], 30, delta=0.1)
+        self.assertEqual((view["show"], view["clip"]), ("overlap", []))
+        self.assertEqual(page.js("return regions.paths.map((path, i) => [path, regions.states[i]])"),
+                         [[path, 0 if "pair" in path else 1] for path in page.js("return regions.paths")])
+        link, ray = page.text("overlap-link"), page.text("overlap-shoot")
+        lines = [line for line in self.shell(ray).splitlines() if line.startswith("overlap ")]
+        self.assertTrue(lines and lines[0].endswith("/all/pair/back.r /all/pair/twin.r"), lines)
+        picture = page.picture()
+        page.press("undo")
+        self.assertEqual((page.view()["looks"], page.view()["clip"]), (looks, clip))
+        page.start(link)
+        self.assertEqual(page.view()["camera"], view["camera"])
+        self.assertEqual(page.difference(picture), [0, 0])
+        self.assertEqual(page.js("return selection"), ["/all/pair/back.r", "/all/pair/twin.r"])
 
     def test_the_tree_and_its_search(self):
         page = self.page

@@ -82,8 +82,8 @@ const std::string& one_of(Random& random, const std::vector<std::string>& list) 
 /// A right request, of which in most cases something is changed.
 std::string request(Random& random, const std::string& root, const std::string& host, const std::string& view) {
     static const std::vector<std::string> methods = {"POST", "GET", "HEAD", "PUT", "DELETE", "OPTIONS", "PRI", "\x01"};
-    static const std::vector<std::string> names = {"model",   "status", "frame", "pick", "slice",
-                                                   "command", "exr",    "parts", "x"};
+    static const std::vector<std::string> names = {"model",   "status", "frame", "pick",  "slice",
+                                                   "command", "exr",    "parts", "check", "x"};
     static const std::vector<std::string> paths = {"/etc/passwd", "/../../etc/passwd", "//", "/%2e%2e/%00", "*",
                                                    "http:"};
     static const std::vector<std::string> headers = {"Content-Length: 18446744073709551615",

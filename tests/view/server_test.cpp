@@ -373,6 +373,18 @@ TEST_CASE("view: a page that refines its picture keeps no other page waiting", "
     refining.join();
 }
 
+TEST_CASE("view: a check lists overlaps, each with a link and a ray", "[view][promise:page]") {
+    const PageClient page(Model(load_scene(std::getenv("CSGRT_SCENES") + std::string("/overlap.json"))));
+    const json made = json::parse(page.post("check", {{"min_depth", 0.1}})->body);
+    CHECK((made["new_overlaps"] == 2 && made["candidates"] == 2));
+    REQUIRE(made["overlaps"].size() == 2);
+    const json& blocks = made["overlaps"][0];
+    CHECK((blocks["depth"] > 14.9 && blocks["depth"] < 15.1 && blocks["is_new"] == true));
+    CHECK(blocks["link"].get<std::string>().starts_with("#%7B%22camera%22"));
+    CHECK(blocks["shoot"].get<std::string>().starts_with("printf '"));
+    CHECK(page.post("check", {{"min_depth", 0}})->body.find("greater than 0 mm") != std::string::npos);
+}
+
 TEST_CASE("view: pages that refine their pictures or export them take turns", "[view][promise:page]") {
     auto page = std::make_unique<PageClient>(operators(), ViewerOptions{.write_exr = write_exr});
     const json view = page->ask("model")["view"];

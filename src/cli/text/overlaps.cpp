@@ -125,7 +125,7 @@ std::string to_json(const CheckResult& result, const CheckRequest& request, cons
                 ", \"allowed\": " + truth(o.is_allowed) + ", \"near_limit\": " + truth(o.is_near_limit) +
                 ", \"origin\": " + json_point(o.ray.origin) + ", \"direction\": " + json_point(o.ray.direction) +
                 ", \"range\": [" + json_figure(o.t_in) + ", " + json_figure(o.t_out) +
-                "], \"allow\": " + json_text(row_of(o, model)) + ", \"view\": " + json_text(link_of(o, model)) + "}";
+                "], \"allow\": " + json_text(row_of(o, model)) + ", \"link\": " + json_text(link_of(o, model)) + "}";
         next = ",\n    ";
     }
     text += "\n  ],\n  \"unbounded\": [";

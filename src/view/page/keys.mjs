@@ -98,7 +98,7 @@ document.addEventListener("keydown", event => {
 });
 /// Closes what is open, a step a time. False: nothing was.
 export function escape_all() {
-  const open = ["cut", "display", "warnings", "save"].filter(panel => !by(panel).hidden);
+  const open = ["cut", "check", "display", "warnings", "save"].filter(panel => !by(panel).hidden);
   if (answer || selected !== null || cross_hair.place) {
     cross_hair.place = null;
     forget_answer();

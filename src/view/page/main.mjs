@@ -3,6 +3,7 @@ import {act, forget_answers, go_step} from "./acts.mjs";
 import {checked_view, read_address} from "./address.mjs";
 import {answer, ask_selected, copy, draw_answer} from "./ask.mjs";
 import {size} from "./camera.mjs";
+import {copy_of_overlap, forget_overlaps, run_check} from "./check.mjs";
 import {add_plane, build_planes} from "./cut.mjs";
 import {set_flag, set_ground, set_light} from "./display.mjs";
 import {by, el, named, notes, rove_by_key, say} from "./dom.mjs";
@@ -38,6 +39,7 @@ export async function load_model() {
   }
   loop.failed = -1;
   forget_answers();
+  forget_overlaps();
   apply_looks(regions, view.looks);
   changed();
   hold({selection: selection.filter(path => range(path)[0] < range(path)[1])});
@@ -106,7 +108,8 @@ function connect() {
     "selected-isolate-fit": event => act.isolate_fit(selection, event),
     "undo": event => go_step(-1, event), "redo": event => go_step(1, event),
     "copy-shoot": event => copy("shoot", event.target), "copy-command": event => copy("command", event.target),
-    "copy-link": copy_link,
+    "copy-link": copy_link, "run-check": run_check,
+    "copy-overlap-link": copy_of_overlap("link"), "copy-overlap-shoot": copy_of_overlap("shoot"),
     "save-png": save.png, "save-csv": save.csv, "save-exr": save.exr,
     "save-view": save.view, "get-command": save.command, "along-normal": look_along_normal,
     "add-plane": add_plane, "slice-fit": refit_slice, "slice-close": () => open_slice(-1),

@@ -8,7 +8,7 @@ import {draw_overlay} from "./overlay.mjs";
 import {bounds, model, regions, view} from "./state.mjs";
 import {draw_tree} from "./tree.mjs";
 
-export const SECTIONS = ["answer", "cut", "display", "warnings", "save"];
+export const SECTIONS = ["answer", "cut", "check", "display", "warnings", "save"];
 const is_narrow = () => innerWidth <= 900;
 /// Keeps the model in view when a slice or a panel takes some of the picture's room, or gives it back.
 export function keep_in_view(run) {
