@@ -45,10 +45,10 @@ void Renderer::name_pixels(Image& image) const {
 }
 
 void Renderer::name_overlaps(const View& view, Image& image) {
-    if (!image.has_channel("overlap")) return;
     const FloatingPoint own;
     constexpr std::size_t rays_at_once = 1u << 18, most_pairs = 256;
     const Model model = this->model();
+    if (!image.has_channel("overlap")) return;
     const RayGrid grid = model.grid_of(view);
     const PixelRectangle part = view.part.value_or(PixelRectangle{0, 0, view.width, view.height});
     std::set<std::pair<std::int32_t, std::int32_t>> pairs;

@@ -46,6 +46,8 @@ Answer ask(const std::string& text, const std::string& name, const std::string& 
     look();
     renderer.name_pixels(image);
     look();
+    renderer.name_overlaps(small_view(), image);
+    look();
     for (std::size_t c = 0; c < image.channels.size(); ++c)
         append(answer.bytes, image.channels[c].data(), image.channels[c].size());
     for (const auto& [key, matrix] : image.matrices) append(answer.bytes, matrix.data(), matrix.size());

@@ -82,6 +82,7 @@ TEST_CASE("a Renderer that a child inherits refuses every call, and goes without
                         require_refusal([&] { renderer.render(small_view()); });
                         require_refusal([&] { renderer.shoot({{{0, -9e3, 0}, {0, 1, 0}}}); });
                         require_refusal([&] { renderer.name_pixels(image); });
+                        require_refusal([&] { renderer.name_overlaps(small_view(), image); });
                         require_refusal([&] { renderer.model(); });
                         require_refusal([&] { renderer.statistics(); });
                         require_refusal([&] { renderer.device_warnings(); });

@@ -82,8 +82,11 @@ private:
     void render(const View& view) {
         const Image image = renderer_->render(view);
         test::require_same(image, reference_->render(view));
-        Image named = image;
+        Image named = image, theirs = image;
         renderer_->name_pixels(named);
+        renderer_->name_overlaps(view, named);
+        reference_->name_overlaps(view, theirs);
+        CHECK(named.attributes["csgrt:overlaps"] == theirs.attributes["csgrt:overlaps"]);
     }
 
     void render_into(const View& view) {
