@@ -40,6 +40,9 @@ CSGRT_API std::vector<AllowedOverlap> load_allowed_overlaps(const std::string& p
 struct CheckRequest {
     /// Millimetres: the diameter of the largest ball in an overlap from which on it counts.
     double min_depth = 0.01;
+    /// Millimetres, at least `min_depth`: each pair whose overlap holds a ball of this diameter is listed. 0: no such
+    /// promise.
+    double certain = 0;
     /// How many times the usual number of cells of a candidate are searched.
     double effort = 1;
     /// Seed of the random numbers.
@@ -48,6 +51,7 @@ struct CheckRequest {
     std::vector<AllowedOverlap> allowed = {};
 
     static constexpr double most_effort = 1000;
+    static constexpr std::uint64_t most_rays = MeasureRequest::most_rays;  ///< for CheckRequest::certain
 };
 
 /// An overlap of two regions.
@@ -69,9 +73,19 @@ struct FoundOverlap {
     bool is_new = false;  ///< Whether it is not allowed, and at least the least depth deep.
 };
 
+/// A pair of regions whose boxes overlap, which is not among the overlaps that a check lists.
+struct UnlistedPair {
+    std::array<std::uint32_t, 2> regions = {};  ///< indices into Model::regions(), ascending
+    bool is_seen = false;                       ///< Whether a ray has shown that the two overlap.
+    double depth_at_most = 0;  ///< Millimetres: no ball in an overlap of the two has a larger diameter.
+};
+
 /// The findings of a check.
 struct CheckResult {
-    std::vector<FoundOverlap> overlaps = {};  ///< At least half of the least depth deep, the deepest first.
+    /// At least half of the least depth deep, the deepest first. With CheckRequest::certain, less deep ones, too, if
+    /// their `depth_at_most` is not below it.
+    std::vector<FoundOverlap> overlaps = {};
+    std::vector<UnlistedPair> unlisted = {};  ///< All other candidates, the largest `depth_at_most` first.
     std::vector<AllowedOverlap> unused = {};  ///< Rows of the request's list that no overlap needs.
     /// Indices of regions without an end. Only their parts within the box of all others were searched.
     std::vector<std::uint32_t> unbounded = {};
@@ -79,6 +93,7 @@ struct CheckResult {
     std::uint64_t candidates = 0;    ///< Number of pairs of regions whose boxes overlap.
     std::uint64_t shallow = 0;       ///< Number of pairs that overlap by less than half of the least depth.
     std::uint64_t rays = 0;          ///< Number of rays that were traced in all.
+    std::uint64_t rays_to_come = 0;  ///< Number still to trace for CheckRequest::certain, at most; before it begins 0.
     bool is_complete = true;         ///< False: the caller has ended the check. Depths that are not known then are 0.
     double seconds = 0;              ///< Seconds that the call took.
 };
@@ -92,8 +107,9 @@ public:
     Checker(Checker&&) noexcept;
     Checker& operator=(Checker&&) noexcept;
 
-    /// Searches. Calls look(result so far), whose overlaps have no depths yet, between parts of the work; if it returns
-    /// false, or Settings::progress ends a call, the check ends with what it has. Throws Error: usage, out_of_memory,
+    /// Searches. Calls look(result so far), whose overlaps have no depths yet and which has nothing `unlisted`, between
+    /// parts of the work, and before the first ray for CheckRequest::certain; if it returns false, or
+    /// Settings::progress ends a call, the check ends with what it has. Throws Error: usage, out_of_memory,
     /// device_fault.
     CheckResult check(const CheckRequest& request = {}, const std::function<bool(const CheckResult&)>& look = {});
 

@@ -5,6 +5,7 @@
 #include <functional>
 #include <iterator>
 #include <numeric>
+#include <utility>
 
 #include <fnmatch.h>
 
@@ -53,19 +54,28 @@ void OverlapSearch::find_candidates() {
         for (const std::uint32_t other : open)
             if (const Box both = common(box, boxes[other]);
                 least_side(both) >= 0.5 * request.min_depth && has_inside(both))
-                pairs.push_back({.first = std::min(r, other), .second = std::max(r, other), .box = both});
+                pairs.push_back({.first = std::min(r, other),
+                                 .second = std::max(r, other),
+                                 .box = both,
+                                 .at_most = least_side(both)});
         open.push_back(r);
     }
+    // The tolerance joins boundaries that are nearer to the first of them than it is long.
+    const double far = length(all.low) + length(all.high);
+    shortest = 2 * renderer.statistics().tolerance + rounding * (length(all.high - all.low) + 1e-4 * far);
     std::ranges::sort(pairs, {}, [](const Pair& p) { return std::pair(p.first, p.second); });
     for (std::size_t i = 0; i < pairs.size(); ++i) numbers[std::uint64_t{pairs[i].first} << 32 | pairs[i].second] = i;
+}
+
+void OverlapSearch::tell() {
+    looked = Clock::now();
+    if (look && !look(result(false, false))) throw Error(Status::interrupted, "interrupted");
 }
 
 void OverlapSearch::trace() {
     renderer.partitions(rays, rows, {.overlaps = true}, {.each = ranges});
     traced += rays.size();
-    if (!look || Clock::now() - looked < between_looks) return;
-    looked = Clock::now();
-    if (!look(result(false))) throw Error(Status::interrupted, "interrupted");
+    if (Clock::now() - looked >= between_looks) tell();
 }
 
 /// The parts of a ray that two regions share. A part may be several overlaps, if a third region begins or ends in it.
@@ -90,6 +100,21 @@ void OverlapSearch::shared_parts(std::size_t ray, std::vector<SharedPart>& parts
             }
         }
     }
+}
+
+/// The longest part of some traced rays that a pair shares. Adds the lengths of all parts to `sum`.
+RayPart OverlapSearch::longest_part(std::size_t pair, std::size_t first, std::size_t end, double& sum) const {
+    std::vector<SharedPart> parts;
+    RayPart longest;
+    for (std::size_t ray = first; ray < end; ++ray) {
+        shared_parts(ray, parts);
+        for (const SharedPart& shared : parts) {
+            if (shared.pair != pair) continue;
+            sum += shared.out - shared.in;
+            if (shared.out - shared.in > longest.length()) longest = {rays[ray], shared.in, shared.out};
+        }
+    }
+    return longest;
 }
 
 /// Takes from the traced rays what they show of any pair.
@@ -122,20 +147,22 @@ void OverlapSearch::take_sights() {
 void OverlapSearch::shoot_model() {
     Box box = no_box;
     for (const Pair& pair : pairs)
-        if (!pair.is_shallow(request.min_depth)) include(box, pair.box);
+        if (!is_shallow(pair)) include(box, pair.box);
     if (!has_inside(box)) return;
     for (std::uint64_t view = 0; view < views; ++view) {
         Random random{request.seed, 0, view};
         drop_rays();
-        for (const Grid& grid : grids_of(box, rays_of_model, random)) add_rays(grid);
+        const std::array<Grid, 3> grids = grids_of(box, rays_of_model, random);
+        for (const Grid& grid : grids) add_rays(grid);
         trace();
         take_sights();
+        for (const Grid& grid : grids)
+            for (Pair& pair : pairs)
+                if (!is_shallow(pair)) exclude(pair, grid.diagonal());
     }
 }
 
-/// Measures the pairs that are found: volumes, the longest parts, and the largest ball that may be there. A ball of
-/// diameter D that lies in an overlap is met by a ray of a complete grid in a part of at least sqrt(D^2 - g^2), where g
-/// is the diagonal of the grid's cells, since a ray passes within g / 2 of its centre.
+/// Measures the pairs that are found: volumes, the longest parts, and the largest ball that may be there.
 void OverlapSearch::measure(std::span<const std::size_t> which, double rays_of_grid) {
     struct Job {
         std::size_t pair;
@@ -151,24 +178,13 @@ void OverlapSearch::measure(std::span<const std::size_t> which, double rays_of_g
         std::vector<double> sums(jobs.size());
         std::vector<RayPart> longest(jobs.size());
         for_chunks(jobs.size(), 8, threads, [&](std::size_t i, std::size_t last, std::size_t) {
-            std::vector<SharedPart> parts;
-            for (; i < last; ++i)
-                for (std::size_t ray = jobs[i].first; ray < jobs[i].end; ++ray) {
-                    shared_parts(ray, parts);
-                    for (const SharedPart& shared : parts) {
-                        if (shared.pair != jobs[i].pair) continue;
-                        sums[i] += shared.out - shared.in;
-                        if (shared.out - shared.in > longest[i].length())
-                            longest[i] = {rays[ray], shared.in, shared.out};
-                    }
-                }
+            for (; i < last; ++i) longest[i] = longest_part(jobs[i].pair, jobs[i].first, jobs[i].end, sums[i]);
         });
         for (std::size_t i = 0; i < jobs.size(); ++i) {
             Pair& pair = pairs[jobs[i].pair];
             pair.volumes[jobs[i].replicate] += jobs[i].by * sums[i];
-            const double length = longest[i].length();
-            if (length > 0) pair.chords.push_back(longest[i]);
-            pair.at_most = std::min(pair.at_most, std::sqrt(length * length + jobs[i].diagonal));
+            if (longest[i].length() > 0) pair.chords.push_back(longest[i]);
+            pair.at_most = std::min(pair.at_most, ball_at_most(longest[i].length(), jobs[i].diagonal));
         }
         take_sights();
         drop_rays();
@@ -184,8 +200,7 @@ void OverlapSearch::measure(std::span<const std::size_t> which, double rays_of_g
             for (const Grid& grid : grids_of(pairs[i].box, rays_of_grid, random)) {
                 const std::size_t first = rays.size();
                 add_rays(grid);
-                const double diagonal = dot(grid.right, grid.right) + dot(grid.up, grid.up);
-                jobs.push_back({i, replicate, grid.cell / 3, diagonal, first, rays.size()});
+                jobs.push_back({i, replicate, grid.cell / 3, grid.diagonal(), first, rays.size()});
             }
         }
         if (rays.size() >= rays_at_once) flush();
@@ -193,21 +208,26 @@ void OverlapSearch::measure(std::span<const std::size_t> which, double rays_of_g
     flush();
 }
 
-CheckResult OverlapSearch::result(bool is_complete) const {
-    CheckResult result{.unbounded = unbounded, .candidates = pairs.size(), .rays = traced, .is_complete = is_complete};
+CheckResult OverlapSearch::result(bool is_complete, bool is_last) const {
+    CheckResult result{.unbounded = unbounded,
+                       .candidates = pairs.size(),
+                       .rays = traced,
+                       .rays_to_come = to_come,
+                       .is_complete = is_complete};
     result.seconds = std::chrono::duration<double>(Clock::now() - began).count();
     std::vector<bool> is_used(request.allowed.size());
     for (const Pair& pair : pairs) {
-        if (!pair.is_found) continue;
-        const Ball& ball = pair.deepest();
-        const RayPart& shown = pair.shown.length() > 0 ? pair.shown : pair.chord;
-        const double depth = std::min(2 * ball.radius, pair.at_most);
-        const bool is_deep = depth >= 0.5 * request.min_depth;
-        if (!is_deep) ++result.shallow;
-        if (!is_deep && is_complete) continue;  // else the depth may be unknown yet
+        const bool may_be_deep = !is_complete || (request.certain > 0 && pair.at_most >= request.certain);
+        if (pair.is_found && !is_deep(pair)) ++result.shallow;
+        if (!pair.is_found || !(is_deep(pair) || may_be_deep)) {
+            if (is_last) result.unlisted.push_back({{pair.first, pair.second}, pair.is_found, pair.at_most});
+            continue;
+        }
+        const bool has_ball = pair.through.length() > 0;
+        const RayPart& shown = has_ball ? pair.through : pair.chord;
         FoundOverlap found{.regions = {pair.first, pair.second},
-                           .place = ball.center,
-                           .depth = depth,
+                           .place = has_ball ? pair.deepest().center : shown.middle(),
+                           .depth = depth_of(pair),
                            .is_estimate = pair.is_estimate(),
                            .depth_at_most = pair.at_most,
                            .volume = estimate_of(pair.volumes),
@@ -215,20 +235,20 @@ CheckResult OverlapSearch::result(bool is_complete) const {
                            .ray = shown.ray,
                            .t_in = shown.in,
                            .t_out = shown.out,
-                           .is_near_limit = depth < 2 * request.min_depth};
-        if (!is_deep) found.place = pair.chord.middle();
+                           .is_near_limit = is_deep(pair) && depth_of(pair) < 2 * request.min_depth};
         for (std::size_t i = 0; i < request.allowed.size(); ++i) {
             if (!allows(request.allowed[i], pair)) continue;
             found.is_allowed = true;
             is_used[i] = true;
         }
-        found.is_new = !found.is_allowed && depth >= request.min_depth;
+        found.is_new = !found.is_allowed && found.depth >= request.min_depth;
         result.new_overlaps += found.is_new;
         result.overlaps.push_back(found);
     }
     for (std::size_t i = 0; i < is_used.size(); ++i)
         if (!is_used[i]) result.unused.push_back(request.allowed[i]);
     std::ranges::stable_sort(result.overlaps, std::greater{}, &FoundOverlap::depth);
+    std::ranges::stable_sort(result.unlisted, std::greater{}, &UnlistedPair::depth_at_most);
     return result;
 }
 
@@ -243,56 +263,39 @@ bool OverlapSearch::allows(const AllowedOverlap& row, const Pair& pair) const {
            (fits(row.first, pair.second) && fits(row.second, pair.first));
 }
 
+/// Measures the pairs that were found since the last call.
+void OverlapSearch::measure_found() {
+    std::vector<std::size_t> found;
+    for (std::size_t i = 0; i < pairs.size(); ++i)
+        if (pairs[i].is_found && !is_shallow(pairs[i]) && !std::exchange(pairs[i].is_measured, true))
+            found.push_back(i);
+    measure(found, rays_of_overlap);
+    climb(found);
+    std::vector<std::size_t> shallow;
+    std::ranges::copy_if(found, std::back_inserter(shallow), [&](std::size_t i) {
+        return pairs[i].is_estimate() && pairs[i].deepest().radius < request.min_depth;
+    });
+    measure(shallow, more_rays_of_overlap);
+    climb(shallow);
+    show(found);
+}
+
 CheckResult OverlapSearch::run(const CheckRequest& wanted, std::function<bool(const CheckResult&)> on_look) {
     request = wanted;
     look = std::move(on_look);
-    traced = 0;
+    traced = to_come = 0;
     began = looked = Clock::now();
-    const auto lap = [&](const char* n) {
-        static double last = 0;
-        double now = double(clock()) / 1e6;
-        fprintf(stderr, "%s %.2f s, rays %zu\n", n, now - last, (size_t)traced);
-        last = now;
-    };
-    lap("begin");
     find_candidates();
-    lap("cand");
     try {
         look_at_solids();
-        lap("solids");
-        {
-            size_t s = 0, f = 0, d = 0, u = 0;
-            for (auto& p : pairs) {
-                s += p.is_shallow(request.min_depth);
-                f += p.is_found;
-                d += is_done(p);
-                if (!is_done(p) && getenv("V"))
-                    fprintf(stderr, "%s %s found %d excluded %g at_most %g\n", model.regions()[p.first].path.c_str(),
-                            model.regions()[p.second].path.c_str(), p.is_found, p.excluded, p.at_most);
-            }
-            fprintf(stderr, "pairs %zu shallow %zu found %zu done %zu\n", pairs.size(), s, f, d);
-        }
+        refuse_what_is_too_fine();
         shoot_model();
-        lap("model");
         search_cells();
-        lap("cells");
-        std::vector<std::size_t> found;
-        for (std::size_t i = 0; i < pairs.size(); ++i)
-            if (pairs[i].is_found && !pairs[i].is_shallow(request.min_depth)) found.push_back(i);
-        measure(found, rays_of_overlap);
-        lap("measure");
-        climb(found);
-        lap("climb");
-        std::vector<std::size_t> shallow;
-        std::ranges::copy_if(found, std::back_inserter(shallow), [&](std::size_t i) {
-            return !pairs[i].is_settled() && pairs[i].deepest().radius < request.min_depth;
-        });
-        measure(shallow, more_rays_of_overlap);
-        lap("measure2");
-        climb(shallow);
-        lap("climb2");
-        show(found);
-        lap("show");
+        measure_found();
+        if (request.certain > 0) {
+            make_certain();
+            measure_found();
+        }
     } catch (const Error& error) {
         if (error.status() != Status::interrupted) throw;
         return result(false);
@@ -319,7 +322,10 @@ CheckResult Checker::check(const CheckRequest& request, const std::function<bool
     if (!(request.min_depth > 0 && std::isfinite(request.min_depth)))
         refuse("the least depth of overlaps must be greater than 0 mm");
     if (!(request.effort > 0 && request.effort <= CheckRequest::most_effort))
-        refuse("the effort of a check must be greater than 0 and at most 1000");
+        refuse("the effort of a check must be greater than 0 and at most " +
+               std::to_string(static_cast<int>(CheckRequest::most_effort)));
+    if (request.certain != 0 && !(request.certain >= request.min_depth && std::isfinite(request.certain)))
+        refuse("the diameter that is certain to be found must be 0 or at least the least depth of overlaps");
     return impl_->run(request, state.of_host(look));
 }
 

@@ -62,6 +62,7 @@ struct Grid {
     Box box = {};  ///< a little larger than what the grid covers
 
     std::uint64_t size() const { return std::uint64_t(columns) * rows; }
+    double diagonal() const { return dot(right, right) + dot(up, up); }  ///< mm²: of a cell, squared
     /// Whether a ray of the grid meets the box.
     bool meets(const Ray& ray) const {
         double in = 0, out = length;

@@ -56,6 +56,17 @@ void OverlapSearch::look_at(Cell& cell, std::size_t first_ray) const {
     }
 }
 
+/// Takes from cells that fill a pair's common box, one of which is given, that the pair was not found by their rays. A
+/// ball's centre is in a cell, whose rays end beyond it, so they may show no more than their part beyond it.
+void OverlapSearch::exclude_by_cells(Pair& pair, const Box& cell) const {
+    const Vec3 size = cell.high - cell.low;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        if ((enlarged - 1) / 2 * size.*axes[axis] < shortest) continue;
+        const double u = enlarged / side * size.*axes[(axis + 1) % 3], v = enlarged / side * size.*axes[(axis + 2) % 3];
+        exclude(pair, u * u + v * v);
+    }
+}
+
 /// Searches the pairs that are not found, level by level. A level's cells are those of all pairs, so whether a pair is
 /// found does not hang on the number of cells that are traced at once.
 void OverlapSearch::search_cells() {
@@ -104,6 +115,7 @@ void OverlapSearch::search_cells() {
         for (std::size_t first = 0, end = 0; first < cells.size(); first = end) {
             const std::size_t pair = cells[first].pair;
             while (end < cells.size() && cells[end].pair == pair) ++end;
+            if (level <= levels_of_all) exclude_by_cells(pairs[pair], cells[first].box);
             if (is_done(pairs[pair])) continue;
             std::vector<const Cell*> kept;
             for (std::size_t i = first; i < end; ++i)

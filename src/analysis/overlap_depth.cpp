@@ -212,9 +212,9 @@ void OverlapSearch::show(std::span<const std::size_t> which) {
     std::vector<Climb> climbs;
     for (const std::size_t i : which) climbs.push_back({.pair = i, .point = pairs[i].deepest().center});
     shoot_lines(climbs, 0, false, [this](Climb& climb, std::vector<Line>& lines) {
-        RayPart& shown = pairs[climb.pair].shown;
-        shown = std::ranges::max_element(lines, {}, [](const Line& l) { return l.chord.length(); })->chord;
-        if (!(shown.length() > 0)) shown = pairs[climb.pair].chord;
+        RayPart& through = pairs[climb.pair].through;
+        through = std::ranges::max_element(lines, {}, [](const Line& l) { return l.chord.length(); })->chord;
+        if (!(through.length() > 0)) through = pairs[climb.pair].chord;
     });
 }
 

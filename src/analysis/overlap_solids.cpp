@@ -29,6 +29,28 @@ Box twice(const Box& cell) {
     return {cell.low - more, cell.high + more};
 }
 
+/// Millimetres: how thick an overlap is in a cell, at most, between planes that face each other.
+struct Thickness {
+    double of_sure = nowhere;  ///< planes with the overlap near the cell behind them
+    double of_all = nowhere;   ///< planes that touch it there
+};
+Thickness thickness(OverlapDepth& depth, const Vec3& center, double half) {
+    std::vector<TangentPlane> planes;
+    depth.append_planes(center, 2 * half, planes);
+    Thickness thick;
+    for (std::size_t i = 0; i < planes.size(); ++i) {
+        if (!planes[i].is_near) continue;
+        for (std::size_t k = i + 1; k < planes.size(); ++k) {
+            if (!planes[k].is_near || dot(planes[i].normal, planes[k].normal) > -0.5) continue;
+            const double between = planes[i].distance(center) + planes[k].distance(center) +
+                                   length(planes[i].normal + planes[k].normal) * half;
+            thick.of_all = std::min(thick.of_all, between);
+            if (planes[i].is_sure && planes[k].is_sure) thick.of_sure = std::min(thick.of_sure, between);
+        }
+    }
+    return thick;
+}
+
 }  // namespace
 
 void OverlapSearch::for_overlaps(std::span<const std::size_t> which,
@@ -60,31 +82,12 @@ void OverlapSearch::bound(Pair& pair, OverlapDepth& depth, const Ball& near) con
     pair.at_most = std::min(pair.at_most, diameter_behind(kept, near.center, reach));
 }
 
-/// How thick the overlap is in a cell, by planes that face each other: millimetres.
-double OverlapSearch::thickness(OverlapDepth& depth, const Vec3& center, double half, bool& is_sure) const {
-    std::vector<TangentPlane> planes;
-    depth.append_planes(center, 2 * half, planes);
-    double least = nowhere, least_sure = nowhere;
-    for (std::size_t i = 0; i < planes.size(); ++i) {
-        if (!planes[i].is_near) continue;
-        for (std::size_t k = i + 1; k < planes.size(); ++k) {
-            if (!planes[k].is_near || dot(planes[i].normal, planes[k].normal) > -0.5) continue;
-            const double thickness = planes[i].distance(center) + planes[k].distance(center) +
-                                     length(planes[i].normal + planes[k].normal) * half;
-            least = std::min(least, thickness);
-            if (planes[i].is_sure && planes[k].is_sure) least_sure = std::min(least_sure, thickness);
-        }
-    }
-    is_sure = least_sure < 0.5 * request.min_depth;
-    return is_sure ? least_sure : least;
-}
-
-/// Makes a pair's box smaller and looks for a point in the overlap, in cells. A cell holds nothing of the overlap if
-/// its centre is outside by half of the cell's diagonal. If all other cells of a level have their centres outside, no
-/// ball in the overlap has a radius of more than half of their diagonals: else it would hold the centre of the cell
-/// that has its own centre. A smaller ball is thinner than the overlap between planes that face each other, near that
-/// cell.
-void OverlapSearch::search_by_solids(std::size_t number, OverlapDepth& depth) {
+/// Makes a pair's box smaller and looks for a point in the overlap, in cells, until it is bounded by `diameter`. A cell
+/// holds nothing of the overlap if its centre is outside by half of the cell's diagonal. A ball whose centre is in
+/// another cell, and whose radius is more than half of its diagonal, holds the cell's centre; if this is outside, there
+/// is no such ball. A smaller ball is no thicker than the overlap between planes that face each other near the cell.
+void OverlapSearch::search_by_solids(std::size_t number, OverlapDepth& depth, double diameter, std::size_t most_cells,
+                                     std::size_t promising_cells) {
     struct SolidCell {
         Box box;
         std::shared_ptr<OverlapDepth> depth;  ///< of the cell that it is a part of
@@ -93,12 +96,11 @@ void OverlapSearch::search_by_solids(std::size_t number, OverlapDepth& depth) {
     Pair& pair = pairs[number];
     std::vector<SolidCell> cells = {{pair.box, std::make_shared<OverlapDepth>(depth), 0}}, kept;
     bool is_complete = true;
-    double thickest = 0;     // of the cells that planes have ruled out
+    double bound = 0;        // of the balls in cells that planes have ruled out
     Box ruled_out = no_box;  // around these cells
     for (int level = 0; level < most_levels; ++level) {
         Box box = ruled_out;
-        double most = 0;
-        bool is_all = true;
+        double most = 0, kept_bound = 0;
         kept.clear();
         for (SolidCell& cell : cells) {
             const double half = 0.5 * length(cell.box.high - cell.box.low);
@@ -107,28 +109,35 @@ void OverlapSearch::search_by_solids(std::size_t number, OverlapDepth& depth) {
             if (d.in > pair.sure.radius) pair.sure = {center, d.in};
             if (d.out >= half) continue;
             include(box, cell.box);
-            bool is_sure = false;
-            if (const double thick = thickness(*cell.depth, center, half, is_sure); thick < 0.5 * request.min_depth) {
-                if (is_sure) thickest = std::max(thickest, thick);
-                is_all &= is_sure;
+            const Thickness thick = thickness(*cell.depth, center, half);
+            if (thick.of_sure < std::min(diameter, 2 * half)) {
+                bound = std::max(bound, thick.of_sure);
+                include(ruled_out, cell.box);
+                continue;
+            }
+            // Curved parts of a boundary may give way to the ball between the planes that touch them.
+            if (thick.of_all < std::min(diameter, 2 * half)) {
+                bound = nowhere;
                 include(ruled_out, cell.box);
                 continue;
             }
             most = std::max(most, half);
+            kept_bound = std::max(kept_bound, d.in > 0 ? nowhere : 2 * half);
             cell.in = d.in;
             kept.push_back(std::move(cell));
         }
-        if (is_complete) pair.box = box;
-        is_complete &= is_all;
-        if (is_complete) pair.excluded = std::max(2 * most, thickest);
-        const bool is_inside = pair.sure.radius >= 0.25 * request.min_depth;
-        pair.is_searched = kept.empty() || 2 * most < 0.5 * request.min_depth;
+        if (is_complete) {
+            if (has_inside(box)) pair.box = box;
+            pair.at_most = std::min(pair.at_most, std::max(bound, kept_bound));
+        }
+        const bool is_inside = 2 * pair.sure.radius >= 0.5 * request.min_depth;
+        pair.is_searched |= kept.empty() || 2 * most < diameter;
         if (pair.is_searched || (is_inside && kept.size() > promising_cells)) return;
         if (kept.size() > most_cells) {
-            if (is_inside) return;
+            if (is_inside || promising_cells == 0) return;
             is_complete = false;
             std::ranges::stable_sort(kept, std::greater{}, &SolidCell::in);
-            kept.erase(kept.begin() + promising_cells, kept.end());
+            kept.erase(kept.begin() + static_cast<std::ptrdiff_t>(promising_cells), kept.end());
         }
         cells.clear();
         for (const SolidCell& cell : kept) {
@@ -142,11 +151,12 @@ void OverlapSearch::search_by_solids(std::size_t number, OverlapDepth& depth) {
 void OverlapSearch::look_at_solids() {
     std::vector<std::size_t> all(pairs.size());
     std::iota(all.begin(), all.end(), 0);
-    for_overlaps(all, [this](std::size_t i, OverlapDepth& depth) {
+    const auto all_cells = static_cast<std::size_t>(most_cells * request.effort),
+               few_cells = static_cast<std::size_t>(std::max(1.0, promising_cells * request.effort));
+    for_overlaps(all, [&](std::size_t i, OverlapDepth& depth) {
         Pair& pair = pairs[i];
-        pair.at_most = least_side(pair.box);
         bound(pair, depth, {center_of(pair.box), 0.25 * least_side(pair.box)});
-        if (!pair.is_shallow(request.min_depth)) search_by_solids(i, depth);
+        if (!is_shallow(pair)) search_by_solids(i, depth, 0.5 * request.min_depth, all_cells, few_cells);
         if (!(pair.sure.radius > 0)) return;
         pair.is_found = true;
         pair.chord = {{pair.sure.center, {1, 0, 0}}, -pair.sure.radius, pair.sure.radius};

@@ -130,6 +130,9 @@ for all regions below it, too; a pattern with blanks stands in quotation marks; 
 two does not matter. Rows that no overlap needs are told. The exit status is 8 if an overlap at
 least --min-depth deep is not allowed.
 
+'largest ball that is not excluded': in pairs that are not listed an overlap may hold it, and none
+that is larger. --certain MM works until it is below MM; it tells the number of rays before.
+
 The same seed gives the same figures on every device and any number of threads, unless Ctrl-C ends
 the check. Ctrl-C prints what there is; the exit status is 130 then.
 )";

@@ -8,6 +8,7 @@
 
 namespace csgrt::form {
 
+static_assert(CheckRequest::most_effort == 1000, "two texts below say so");
 template <>
 inline constexpr auto of<CheckRequest> = Form{
     plain("check_request"),
@@ -18,6 +19,13 @@ inline constexpr auto of<CheckRequest> = Form{
               .value = "MM",
               .absent = "0.01",
               .expected = "a length in millimetres greater than 0"}),
+    optional("certain", &CheckRequest::certain, number, not_negative(),
+             "Millimetres, at least `min_depth`: each pair whose overlap holds a ball of this diameter is listed.",
+             {.concern = Concern::work,
+              .name = "--certain",
+              .value = "MM",
+              .absent = "no such promise",
+              .expected = "a length in millimetres, 0 or more"}),
     optional("effort", &CheckRequest::effort, number,
              Bounds{0, CheckRequest::most_effort, false, true, "", "must be greater than 0 and at most 1000"},
              "How many times the usual number of cells of a candidate are searched.",

@@ -172,7 +172,13 @@ TEST_CASE("shallow overlaps are counted, and those near the limit marked") {
     CHECK((deep.overlaps.empty() && deep.shallow == 1));
     const CheckResult near = checked(p.scene, {.min_depth = 0.4});
     REQUIRE(near.overlaps.size() == 1);
-    CHECK(near.overlaps.front().is_near_limit);
+    const FoundOverlap& o = near.overlaps.front();
+    CHECK(o.is_near_limit);
+    const Vec3 middle = {o.place.x - o.ray.origin.x, o.place.y - o.ray.origin.y, o.place.z - o.ray.origin.z};
+    const double along = middle.x * o.ray.direction.x + middle.y * o.ray.direction.y + middle.z * o.ray.direction.z;
+    CHECK(std::hypot(middle.x - along * o.ray.direction.x, middle.y - along * o.ray.direction.y,
+                     middle.z - along * o.ray.direction.z) < 1e-9);  // the ray goes through the place
+    CHECK((o.t_in <= along && along <= o.t_out));
 }
 
 TEST_CASE("a region without an end is searched within the box of the others, and told") {

@@ -131,7 +131,8 @@ TEST_CASE("what is allowed or less deep than --min-depth is listed, but does not
     CHECK(contains(near.out, "\n~ is near the limit"));
     CHECK(contains(near.out, "\n1 overlap: 0 new at least 2.5 mm deep, 0 allowed, 1 less deep\n"));
     const std::string shallow = folder.write("aslant.json", balls(aslant));
-    CHECK(contains(run({"check", shallow, "--min-depth", "5"}).out, "shallower than 2.5 mm, not listed: 1\n"));
+    CHECK(contains(run({"check", shallow, "--min-depth", "5"}).out,
+                   "shallower than 2.5 mm, not listed: 1\nnot seen to overlap: 0 pairs; largest ball that is not "));
 }
 
 TEST_CASE("check names a region without an end, and searches its part in the box of all others", "[promise:check]") {
@@ -151,6 +152,35 @@ TEST_CASE("check names a region without an end, and searches its part in the box
     CHECK(found["unbounded"] == json::array({"/all/h.r"}));
     REQUIRE(found["overlaps"].size() == 1);
     CHECK(std::abs(found["overlaps"][0]["depth"].get<double>() - 2) < 0.05);
+}
+
+TEST_CASE("check tells the largest ball that it does not exclude, and with --certain what this costs",
+          "[promise:check]") {
+    NEEDS_COMMAND();
+    const Folder folder;
+    const auto checked = [&](const std::string& scene, const std::string& certain) {
+        return run({"check", scene, "--min-depth", "0.005", "--certain", certain, "--json", folder / "json"});
+    };
+    const std::string apart = folder.write("apart.json", balls({15, 15, 0}));  // but their boxes overlap
+    for (const char* certain : {"0", "0.02"}) {
+        const Result result = checked(apart, certain);
+        CAPTURE(result.out, result.err);
+        CHECK(result.status == 0);
+        CHECK(contains(result.err, "rays to come, some ") == (certain != std::string("0")));
+        CHECK(contains(result.out, "\nnot seen to overlap: 1 pair; largest ball that is not excluded: 0."));
+        CHECK(contains(result.out, " mm\n  /all/left.r /all/right.r\n"));
+        const json found = json::parse(read_file(folder / "json"));
+        CHECK(found["certain"] == std::stod(certain));
+        REQUIRE(found["unlisted"].size() == 1);
+        const json& pair = found["unlisted"][0];
+        CHECK((pair["regions"] == json({"/all/left.r", "/all/right.r"}) && pair["indices"] == json({0, 1})));
+        CHECK(pair["seen"] == false);
+        CHECK((pair["depth_at_most"] < 0.02) == (certain != std::string("0")));
+    }
+    const Result both = checked(folder.write("balls.json", balls(deep)), "0.02");
+    CHECK_FALSE(contains(both.out, "not seen to overlap"));
+    CHECK(json::parse(read_file(folder / "json"))["unlisted"].empty());
+    check_run({"check", apart, "--certain", "1e-6", "--min-depth", "1e-6"}, 2, "is possible");
 }
 
 TEST_CASE("a row that check writes for the list of allowed overlaps allows its overlap, whatever the paths",

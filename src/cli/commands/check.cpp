@@ -1,5 +1,6 @@
 // csgrt check: regions of a scene that overlap.
 #include <algorithm>
+#include <cstdio>
 #include <utility>
 
 #include "commands.hpp"
@@ -35,8 +36,11 @@ Status run(const CheckArguments& arguments) {
         Checker checker(model, until_interrupt(arguments.settings));
         report(checker.renderer().device_warnings(), false);
         progress.stage("checking");
+        bool is_told = on_terminal();
         result = checker.check(request, [&](const CheckResult& so_far) {
             progress.note(to_note(so_far));
+            if (so_far.rays_to_come > 0 && !std::exchange(is_told, true))
+                std::fprintf(stderr, "csgrt: %s\n", to_note(so_far).c_str());
             return !interrupted();
         });
         for (const std::uint32_t region : result.unbounded)

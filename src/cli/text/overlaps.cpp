@@ -27,9 +27,16 @@ std::string pattern_of(std::string_view path) {
     return has_quotes ? '"' + text + '"' : text;
 }
 
-/// The paths of an overlap's regions, as a list of allowed overlaps has them.
-std::string row_of(const FoundOverlap& o, const Model& model, const char* between = " ") {
+/// The paths of a pair's regions, as a list of allowed overlaps has them.
+std::string row_of(const auto& o, const Model& model, const char* between = " ") {
     return pattern_of(model.regions()[o.regions[0]].path) + between + pattern_of(model.regions()[o.regions[1]].path);
+}
+
+/// The beginning of a pair's object in JSON.
+std::string json_pair(const auto& o, const Model& model) {
+    return "{\"regions\": [" + json_text(model.regions()[o.regions[0]].path) + ", " +
+           json_text(model.regions()[o.regions[1]].path) + "], \"indices\": [" + std::to_string(o.regions[0]) + ", " +
+           std::to_string(o.regions[1]) + "]";
 }
 
 /// Bytes at the front of a text that are one character of UTF-8 that XML may have; 0: they are none.
@@ -74,7 +81,12 @@ std::string xml_text(std::string_view text) {
 
 std::string to_text(const CheckResult& result, const CheckRequest& request, const Model& model, std::size_t width) {
     std::string text;
+    const auto add_row = [&](const auto& pair) {
+        const std::string row = row_of(pair, model);
+        text += "  " + (row.size() + 2 <= width ? row : row_of(pair, model, "\n    ")) + "\n";
+    };
     bool has_near = false;
+    const auto seen = static_cast<std::uint64_t>(std::ranges::count(result.unlisted, true, &UnlistedPair::is_seen));
     std::uint64_t allowed = 0, less_deep = 0;
     if (!result.overlaps.empty())
         text +=
@@ -92,8 +104,7 @@ std::string to_text(const CheckResult& result, const CheckRequest& request, cons
                  : is_less    ? "  less deep"
                               : "") +
                 "\n";
-        const std::string row = row_of(o, model);
-        text += "  " + (row.size() + 2 <= width ? row : row_of(o, model, "\n    ")) + "\n";
+        add_row(o);
     }
     if (!text.empty()) text += "\n";
     if (has_near) text += "~ is near the limit: another seed may find the depth on its other side.\n";
@@ -101,8 +112,16 @@ std::string to_text(const CheckResult& result, const CheckRequest& request, cons
             format_number("%g", request.min_depth) + " mm deep, " + std::to_string(allowed) + " allowed, " +
             std::to_string(less_deep) + " less deep\n" + counted(result.candidates, "pair") +
             " of regions may overlap; shallower than " + format_number("%g", request.min_depth / 2) +
-            (result.is_complete ? " mm, not listed: " : " mm, or not measured: ") + std::to_string(result.shallow) +
-            "\n" + counted(result.rays, "ray") + ", " + format_number("%.1f", result.seconds) + " s\n";
+            (result.is_complete ? " mm, not listed: " + std::to_string(seen)
+                                : " mm, or not measured: " + std::to_string(result.shallow)) +
+            "\n";
+    if (!result.unlisted.empty()) {
+        text += "not seen to overlap: " + counted(result.unlisted.size() - seen, "pair") +
+                "; largest ball that is not excluded: " + format_number("%.4g", result.unlisted.front().depth_at_most) +
+                " mm\n";
+        add_row(result.unlisted.front());
+    }
+    text += counted(result.rays, "ray") + ", " + format_number("%.1f", result.seconds) + " s\n";
     return text + (result.is_complete ? "" : "The check was ended before it was complete.\n");
 }
 
@@ -110,15 +129,15 @@ std::string to_json(const CheckResult& result, const CheckRequest& request, cons
     const auto truth = [](bool is) { return is ? "true" : "false"; };
     std::string text =
         "{\n  \"seed\": " + std::to_string(request.seed) + ",\n  \"min_depth\": " + json_figure(request.min_depth) +
-        ",\n  \"effort\": " + json_figure(request.effort) + ",\n  \"complete\": " + truth(result.is_complete) +
+        ",\n  \"certain\": " + json_figure(request.certain) + ",\n  \"effort\": " + json_figure(request.effort) +
+        ",\n  \"complete\": " + truth(result.is_complete) +
         ",\n  \"candidates\": " + std::to_string(result.candidates) +
         ",\n  \"shallow\": " + std::to_string(result.shallow) + ",\n  \"rays\": " + std::to_string(result.rays) +
         ",\n  \"new\": " + std::to_string(result.new_overlaps) + ",\n  \"overlaps\": [";
     const char* next = "\n    ";
     for (const FoundOverlap& o : result.overlaps) {
-        text += std::string(next) + "{\"regions\": [" + json_text(model.regions()[o.regions[0]].path) + ", " +
-                json_text(model.regions()[o.regions[1]].path) + "], \"indices\": [" + std::to_string(o.regions[0]) +
-                ", " + std::to_string(o.regions[1]) + "], \"depth\": " + (o.depth > 0 ? json_figure(o.depth) : "null") +
+        text += std::string(next) + json_pair(o, model) +
+                ", \"depth\": " + (o.depth > 0 ? json_figure(o.depth) : "null") +
                 ", \"estimate\": " + truth(o.is_estimate) + ", \"depth_at_most\": " + json_figure(o.depth_at_most) +
                 ", \"volume\": " + json_estimate(o.volume) + ", \"place\": " + json_point(o.place) +
                 ", \"box\": " + json_corners(o.box) + ", \"new\": " + truth(o.is_new) +
@@ -126,6 +145,13 @@ std::string to_json(const CheckResult& result, const CheckRequest& request, cons
                 ", \"origin\": " + json_point(o.ray.origin) + ", \"direction\": " + json_point(o.ray.direction) +
                 ", \"range\": [" + json_figure(o.t_in) + ", " + json_figure(o.t_out) +
                 "], \"allow\": " + json_text(row_of(o, model)) + ", \"link\": " + json_text(link_of(o, model)) + "}";
+        next = ",\n    ";
+    }
+    text += "\n  ],\n  \"unlisted\": [";
+    next = "\n    ";
+    for (const UnlistedPair& pair : result.unlisted) {
+        text += std::string(next) + json_pair(pair, model) + ", \"seen\": " + truth(pair.is_seen) +
+                ", \"depth_at_most\": " + json_figure(pair.depth_at_most) + "}";
         next = ",\n    ";
     }
     text += "\n  ],\n  \"unbounded\": [";
@@ -183,7 +209,14 @@ std::string to_rays(const CheckResult& result, const Model& model) {
 }
 
 std::string to_note(const CheckResult& so_far) {
-    return counted(so_far.overlaps.size(), "overlap") + ", " + counted(so_far.rays, "ray");
+    std::string text = counted(so_far.overlaps.size(), "overlap") + ", " + counted(so_far.rays, "ray");
+    if (so_far.rays_to_come > 0)
+        text += "; for --certain " + format_number("%.3g", static_cast<double>(so_far.rays_to_come)) +
+                " rays to come, some " +
+                format_number("%.2g", so_far.seconds / static_cast<double>(so_far.rays) *
+                                          static_cast<double>(so_far.rays_to_come)) +
+                " s";
+    return text;
 }
 
 }  // namespace csgrt::cli

@@ -20,7 +20,7 @@ std::string to_junit(const CheckResult& result, const Model& model, const std::s
 /// For each overlap a comment, and a ray that shows it.
 std::string to_rays(const CheckResult& result, const Model& model);
 
-/// "12 overlaps, 3456 rays": for a line of progress.
+/// "12 overlaps, 3456 rays": for a line of progress. Then what is to come for --certain, if there is anything.
 std::string to_note(const CheckResult& so_far);
 
 }  // namespace csgrt::cli
