@@ -254,7 +254,7 @@ double diameter_behind(const std::vector<TangentPlane>& planes, const Vec3& near
                 }
             }
         }
-    return least + 1e-9 * reach;
+    return least + 1e-8 * reach;
 }
 
 }  // namespace csgrt::analysis
