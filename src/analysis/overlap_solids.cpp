@@ -16,6 +16,7 @@ namespace {
 // Cells of a common box, in levels: so many of a level are divided, or, of more cells, the most promising ones.
 constexpr std::size_t most_cells = 512, promising_cells = 64;
 constexpr int most_levels = 24;
+constexpr int unknown_levels = 3;  ///< if not all solids have bounds of distances
 
 // Climbs: those of a pair, their rounds; planes that are compared for a bound.
 constexpr std::size_t climbs_by_solids = 2;
@@ -101,6 +102,7 @@ void OverlapSearch::search_by_solids(std::size_t number, OverlapDepth& depth, do
     for (int level = 0; level < most_levels; ++level) {
         Box box = ruled_out;
         double most = 0, kept_bound = 0;
+        bool is_known = true;
         kept.clear();
         for (SolidCell& cell : cells) {
             const double half = 0.5 * length(cell.box.high - cell.box.low);
@@ -122,7 +124,8 @@ void OverlapSearch::search_by_solids(std::size_t number, OverlapDepth& depth, do
                 continue;
             }
             most = std::max(most, half);
-            kept_bound = std::max(kept_bound, d.in > 0 ? nowhere : 2 * half);
+            kept_bound = std::max(kept_bound, d.out >= 0 ? 2 * half : nowhere);
+            is_known &= d.out >= 0 || d.in >= 0;
             cell.in = d.in;
             kept.push_back(std::move(cell));
         }
@@ -131,7 +134,8 @@ void OverlapSearch::search_by_solids(std::size_t number, OverlapDepth& depth, do
             pair.at_most = std::min(pair.at_most, std::max(bound, kept_bound));
         }
         const bool is_inside = 2 * pair.sure.radius >= 0.5 * request.min_depth;
-        pair.is_searched |= kept.empty() || 2 * most < diameter;
+        if (!is_known && level >= unknown_levels) return;
+        pair.is_searched |= is_known && (kept.empty() || 2 * most < diameter);
         if (pair.is_searched || (is_inside && kept.size() > promising_cells)) return;
         if (kept.size() > most_cells) {
             if (is_inside || promising_cells == 0) return;
