@@ -254,60 +254,80 @@ def openmc(case):
 
 # ---- Geant4: points in and near solids
 
-def geant4(case):
-    try:
-        import geant4_pybind as g4
-    except ImportError as missing:
-        raise Refused(f"geant4-pybind is not installed: {missing}") from None
-    kept = []
+class Geant4Solids:
+    """Makes Geant4's solids of trees, about a centre: what is there and is not turned stands as it is."""
+    def __init__(self, centre):
+        try:
+            import geant4_pybind
+        except ImportError as missing:
+            raise Refused(f"geant4-pybind is not installed: {missing}") from None
+        self.g4, self.centre, self.kept = geant4_pybind, centre, []
 
-    def keep(value):
-        kept.append(value)
+    def keep(self, value):
+        self.kept.append(value)
         return value
 
-    def moved(solid, x, y, z, at):
-        """A solid whose axes become these unit vectors; at the case's centre, if it is not turned: as it is."""
-        turn, offset = np.array([x, y, z]), at - CENTRE
+    def moved(self, solid, x, y, z, at):
+        """A solid whose axes become these unit vectors."""
+        g4, turn, offset = self.g4, np.array([x, y, z]), at - self.centre
         if abs(turn - np.eye(3)).max() < 1e-12 and abs(offset).max() < 1e-12:
             return solid
         rotation = g4.G4RotationMatrix()
         rotation.rotateAxes(*(g4.G4ThreeVector(*axis) for axis in turn))
-        place = keep(g4.G4Transform3D(rotation, g4.G4ThreeVector(*offset)))
-        return keep(g4.G4DisplacedSolid("moved", solid, place))
+        place = self.keep(g4.G4Transform3D(rotation, g4.G4ThreeVector(*offset)))
+        return self.keep(g4.G4DisplacedSolid("moved", solid, place))
 
-    def made(tree):
-        kind, *of = tree
+    def mesh(self, vertices, faces):
+        g4, made = self.g4, self.keep(self.g4.G4TessellatedSolid("mesh"))
+        points = [g4.G4ThreeVector(*(np.array(vertex) - self.centre)) for vertex in vertices]
+        for face in faces:
+            made.AddFacet(self.keep(g4.G4TriangularFacet(*(points[i] for i in face), g4.ABSOLUTE)))
+        made.SetSolidClosed(True)
+        return made
+
+    def made(self, tree):
+        g4, keep, (kind, *of) = self.g4, self.keep, tree
         if kind in ("difference", "intersection", "union"):
-            joined, *rest = map(made, of)
+            joined, *rest = map(self.made, of)
             join = {"difference": g4.G4SubtractionSolid, "intersection": g4.G4IntersectionSolid,
                     "union": g4.G4UnionSolid}[kind]
             for other in rest:
                 joined = keep(join("joined", joined, other))
             return joined
+        if kind == "mesh":
+            return self.mesh(*of)
         if kind == "ell" and np.ptp(np.linalg.norm(of[1], axis=1)) < 1e-12:
-            return moved(keep(g4.G4Orb("ball", np.linalg.norm(of[1][0]))), *np.eye(3), of[0])
+            return self.moved(keep(g4.G4Orb("ball", np.linalg.norm(of[1][0]))), *np.eye(3), of[0])
         if kind == "arb" and len(of[0]) == 8:
             edges = of[0][[1, 3, 4]] - of[0][0]
             sides = np.linalg.norm(edges, axis=1)
             if abs(of[0][0] + edges.sum(0) - of[0][6]).max() > 1e-9 * max(sides) or \
                     abs(edges @ edges.T - np.diag(sides ** 2)).max() > 1e-9 * max(sides) ** 2:
                 raise Refused("not translated: an arb8 that is no box")
-            return moved(keep(g4.G4Box("box", *sides / 2)), *(edges / sides[:, None]), of[0].mean(0))
+            edges[2] *= np.sign(np.linalg.det(edges))  # a mirrored box is a box
+            return self.moved(keep(g4.G4Box("box", *sides / 2)), *(edges / sides[:, None]), of[0].mean(0))
         if kind == "tor" and abs(of[1][2]) == 1:
-            return moved(keep(g4.G4Torus("torus", 0, of[3], of[2], 0, 2 * np.pi)), *np.eye(3), of[0])
-        if kind == "tgc" and abs(of[2] - of[4]).max() + abs(of[3] - of[5]).max() < 1e-12 and \
-                abs(np.linalg.norm(of[2]) - np.linalg.norm(of[3])) < 1e-12 and abs(of[1] @ of[2]) < 1e-12:
-            base, height, x = of[:3]
-            long, radius = np.linalg.norm(height), np.linalg.norm(x)
-            tubs = keep(g4.G4Tubs("rod", 0, radius, long / 2, 0, 2 * np.pi))
-            return moved(tubs, x / radius, np.cross(height, x) / long / radius, height / long, base + height / 2)
+            return self.moved(keep(g4.G4Torus("torus", 0, of[3], of[2], 0, 2 * np.pi)), *np.eye(3), of[0])
+        if kind == "tgc":
+            base, height, x, y, c, d = of
+            long, radius, top = np.linalg.norm(height), np.linalg.norm(x), np.linalg.norm(c)
+            if abs(np.linalg.norm(y) - radius) < 1e-12 and abs(height @ x) < 1e-12 * long * radius and \
+                    abs(radius * c - top * x).max() + abs(radius * d - top * y).max() < 1e-12 * radius:
+                rod = g4.G4Cons("rod", 0, radius, 0, top, long / 2, 0, 2 * np.pi) if top != radius else \
+                    g4.G4Tubs("rod", 0, radius, long / 2, 0, 2 * np.pi)
+                return self.moved(keep(rod), x / radius, np.cross(height, x) / long / radius, height / long,
+                                  base + height / 2)
         raise Refused("not translated: " + {
             "ell": "an ellipsoid", "arb": "an arb that is no box", "tor": "a turned torus",
-            "tgc": "a tgc that is no round cylinder"}[kind])
+            "tgc": "a tgc that is no round cylinder or cone"}[kind])
+
+
+def geant4(case):
+    solids = Geant4Solids(CENTRE)
     regions = regions_of(case)
     if len(regions) > 1:
         raise Refused("several regions: its estimates are of one solid")
-    solid = made(regions[0])
+    solid = solids.made(regions[0])
 
     def measure(count, seed):
         # Points are the same in every call: the points after `seed` times as many are those of another seed.
@@ -317,7 +337,7 @@ def geant4(case):
         # Layers for the area depend on the number, so numbers differ by one in a hundred.
         area, took = timed(solid.EstimateSurfaceArea, count + seed * count // 100, -1.0)
         return {"volume": (volume, spent / (seed + 1)), "area": (area, took)}
-    measure.kept = kept
+    measure.solids = solids  # which live as long
     return measure, [10 ** i for i in range(3, 8)]
 
 

@@ -107,7 +107,7 @@ class Models(unittest.TestCase):
 
     def missed(self, name, file):
         """Prints the rows of a model, and gives the pairs at least twice the least depth deep that seeds miss."""
-        depths, seeds, missed = {}, {}, []
+        depths, missed = {}, []
 
         def take(found):
             for pair, each in pairs_of(found).items():
@@ -116,17 +116,16 @@ class Models(unittest.TestCase):
         for seed in (1001, 1002, 1003):
             take(check(file, seed=seed, effort=10)[0])
         for least in (0.01, 1.0):
+            pairs, times = {}, []
             for seed in range(1, 11):
                 found, spent = check(file, seed=seed, min_depth=least)
-                seeds[least, seed] = take(found), spent, found["candidates"]
-        for least in (0.01, 1.0):
-            of = {seed: each for (limit, seed), each in seeds.items() if limit == least}
+                pairs[seed] = take(found)
+                times.append(spent)
             deep = {pair for pair, depth in depths.items() if depth >= 2 * least}
-            pairs, times, candidates = zip(*of.values())
-            counts = [len(deep & each) for each in pairs]
             near = sum(0.5 * least <= depth < 2 * least for depth in depths.values())
-            lost = [(seed, f"{depths[pair]:.3g} mm", *pair) for seed, each in zip(of, pairs) for pair in deep - each]
-            print(f"| {name} | {candidates[0]:,} | {least:g} | {sum(times) / len(times):.2g} | {len(deep)} | "
+            counts = [len(deep & each) for each in pairs.values()]
+            lost = [(seed, f"{depths[pair]:.3g} mm", *pair) for seed, each in pairs.items() for pair in deep - each]
+            print(f"| {name} | {found['candidates']:,} | {least:g} | {sum(times) / len(times):.2g} | {len(deep)} | "
                   f"{min(counts)} to {max(counts)} | {near} |", flush=True)
             for each in sorted(lost):
                 print("missed by seed", *each, flush=True)
