@@ -17,6 +17,7 @@ except ImportError as missing:
     print(f"SKIPPED: {missing} (Debian, Ubuntu: apt-get install python3-numpy)")
     sys.exit(0)
 from cases import box_corners, solid  # noqa: E402
+from draw_overlaps import cell, curve  # noqa: E402
 from errors import error_at, rows_of  # noqa: E402
 from methods import (  # noqa: E402
     by_grid, by_lines, by_points, gqa_spacing, grid_rays, half_spaces, quadric, random_lines,
@@ -38,6 +39,16 @@ def box(rays, near):
 
 
 BALL_BOX = np.array([[-2.0] * 3, [2.0] * 3])
+
+
+class Overlaps(unittest.TestCase):
+    def test_a_curve_has_the_budgets_of_all_kinds_and_a_cell_the_seconds_from_which_on_all_seeds_find(self):
+        rows = [{"kind": kind, "budget": budget, "found": found, "seeds": 10, "seconds": budget / 8}
+                for kind, budget, found in (("a", 1, 10), ("a", 2, 9), ("a", 4, 10), ("b", 2, 3), ("b", 4, 4),
+                                            ("a", 8, 10))]
+        self.assertEqual(list(curve(rows)), [(0.25, 0.6, 2), (0.5, 0.7, 4)])
+        self.assertEqual([cell([row for row in rows if row["kind"] == kind]) for kind in "abc"],
+                         ["0.5", "4 of 10", "-"])
 
 
 class Errors(unittest.TestCase):
