@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Draws what overlaps.py measured, the share of planted overlaps that is found against CPU seconds: overlaps.png. Prints
-the CPU seconds from which on all seeds find.
+"""Draws what overlaps.py measured: the share of planted overlaps that is found against CPU seconds, overlaps.png.
+Prints a table of the CPU seconds from which on all seeds find.
 
     bench/analysis/draw_overlaps.py [-o FOLDER] OVERLAPS.json
 
