@@ -189,7 +189,7 @@ void RegionDepth::append_planes(const Vec3& point, double reach, std::vector<Tan
     if (!depths_.empty()) collect(collect, depths_.size() - 1, true, true);
 }
 
-void RegionDepth::append_supports(const Vec3& point, double reach, std::vector<TangentPlane>& planes) {
+void RegionDepth::append_supports(const Vec3& point, std::vector<TangentPlane>& planes) {
     const auto add_solid = [&](std::uint32_t solid) {
         if (!bounds_.has(solid)) return;
         pieces_.clear();
@@ -213,25 +213,14 @@ void RegionDepth::append_supports(const Vec3& point, double reach, std::vector<T
             planes.push_back({at - piece.distance / steep * normal, normal});
         }
     };
-    // What is removed leaves what is behind a plane, if no other piece of it reaches into the box.
-    const auto add_removed = [&](std::uint32_t solid) {
-        if (!bounds_.has(solid)) return;
-        pieces_.clear();
-        bounds_.append_pieces(solid, point, reach, pieces_);
-        if (pieces_.size() != 1 || !pieces_[0].is_plane) return;
-        const Vec3 normal = -1.0 * pieces_[0].slope;
-        planes.push_back({point + pieces_[0].distance * normal, normal});
-    };
     const auto collect = [&](const auto& self, std::size_t i) -> void {
         const FlatTree::Node& node = nodes_[i];
         if (node.op == Operator::leaf) return add_solid(node.solid);
         const bool is_difference = node.op == Operator::difference;
-        if (node.op == Operator::not_ || (node.op != Operator::intersection && !is_difference && node.arity != 1)) return;
+        if (node.op == Operator::not_ || (node.op != Operator::intersection && !is_difference && node.arity != 1))
+            return;
         for_operands(i, [&](std::size_t k) {
-            if (!is_difference || begins_[k] == begins_[i])
-                self(self, k);
-            else if (nodes_[k].op == Operator::leaf)
-                add_removed(nodes_[k].solid);
+            if (!is_difference || begins_[k] == begins_[i]) self(self, k);
         });
     };
     if (!depths_.empty()) collect(collect, depths_.size() - 1);

@@ -29,9 +29,8 @@ public:
     /// Appends planes that touch the region's boundary near the point, as far as it is known. `reach`: mm from the
     /// point within which is_near and is_sure hold.
     void append_planes(const Vec3& point, double reach, std::vector<TangentPlane>& planes);
-    /// Appends planes with all of the region in the box behind them: they touch convex bodies that hold it, near the
-    /// point. `reach`: mm, no point of the box is farther from the point.
-    void append_supports(const Vec3& point, double reach, std::vector<TangentPlane>& planes);
+    /// Appends planes with all of the region behind them: they touch convex bodies that hold it, near the point.
+    void append_supports(const Vec3& point, std::vector<TangentPlane>& planes);
 
 private:
     Depth of_solid(std::uint32_t solid, const Vec3& point) const;
@@ -70,8 +69,7 @@ public:
         append_faces(planes);
     }
     void append_supports(const Vec3& point, std::vector<TangentPlane>& planes) {
-        const double reach = length(box_.high - box_.low);
-        for (RegionDepth& region : regions_) region.append_supports(point, reach, planes);
+        for (RegionDepth& region : regions_) region.append_supports(point, planes);
         append_faces(planes);
     }
 
