@@ -2,6 +2,7 @@
 // Settings::laboratory. They need an OpenCL device or the reference, which has no contraction.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string_view>
 #include <utility>
@@ -30,6 +31,7 @@ struct Laboratory {
     bool contraction = false;   ///< the device's compiler may round a product and a sum as one (fma)
     bool single_world = false;  ///< Precision::single also for the world's coordinates, which are in double otherwise
     const struct Evaluation* evaluation = nullptr;  ///< replaces kernel 4 (pipeline/passes/partitions.hpp)
+    std::uint64_t* retried = nullptr;  ///< counts batches that ran again, since their buffers were too small
 };
 
 inline const Laboratory& laboratory(const Settings& settings) {

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "base/clock.hpp"
+#include "base/laboratory.hpp"
 #include "device/driver_call.hpp"
 
 namespace csgrt {
@@ -13,6 +14,7 @@ DeviceBackend::DeviceBackend(DevicePlan plan, std::shared_ptr<const ModelInUse> 
     : model_(std::move(model)),
       search_ms_(search_ms),
       spot_check_(settings),
+      retried_(laboratory(settings).retried),
       takeover_(
           std::move(plan),
           [this, settings](const std::vector<FoundDevice>& devices) {
@@ -54,6 +56,7 @@ void DeviceBackend::counted(const Call& call) {
     counts_ = {};
     call();
     build_ms_in_call_ += drawer_->build_ms() - built_ms;
+    if (retried_) *retried_ += counts_.retried;
 }
 
 void DeviceBackend::render(const PreparedFrame& frame, const FrameMemory& memory, Watch& watch) {

@@ -49,6 +49,7 @@ private:
     std::shared_ptr<const ModelInUse> model_;  ///< the takeover's job reads it, too
     double search_ms_;
     SpotCheck spot_check_;
+    std::uint64_t* retried_;  ///< Laboratory::retried
     DeviceTakeover takeover_;
     DeviceGroup* drawer_ = nullptr;  ///< the group for the next call
     PipelineCounts counts_;
