@@ -74,6 +74,7 @@ public:
     DeviceTracer(const Subject& subject, const TraceOptions& options, DeviceMethod method)
         : scene_(subject.compiled),
           method_(std::move(method)),
+          first_hits_(options.first_hits),
           records_(make_converter(scene_)),
           device_(compiling_device(method_.name, options.device)),
           scene_tables_(device_, scene_, records_->tables()),
@@ -140,7 +141,9 @@ private:
         if (bytes) memory_.queue_fill(0, bytes);
         const std::size_t items = method_.item_a_ray ? input.rays : 2 * std::size_t{segments};
         // As for csgrt's own kernel 4; items that are rays take differently long.
-        const std::size_t group = method_.item_a_ray ? divergent_group(device_) : work_group;
+        const std::size_t group = method_.group        ? method_.group
+                                  : method_.item_a_ray ? divergent_group(device_)
+                                                       : work_group;
         return kernel.launch(segments ? items : 0, group, input.batch.frame, memory.offsets(), memory.boundaries(),
                              memory.bits(), memory.partitions(), tables_, memory_);
     }
@@ -172,9 +175,10 @@ private:
             stretches.clear();
             for (std::uint32_t k = kernel::first_partition(nodes, segments); k != NONE; k = nodes[k].next) {
                 ++partitions_;
-                if (nodes[k].owner != NONE)
-                    append(stretches,
-                           {nodes[k].owner, boundaries[nodes[k].in_boundary].t, boundaries[nodes[k].out_boundary].t});
+                if (nodes[k].owner == NONE) continue;
+                append(stretches,
+                       {nodes[k].owner, boundaries[nodes[k].in_boundary].t, boundaries[nodes[k].out_boundary].t});
+                if (first_hits_) break;  // the kernel has gone no further
             }
         }
         return true;
@@ -184,6 +188,7 @@ private:
 
     const CompiledScene& scene_;
     DeviceMethod method_;
+    bool first_hits_;
     std::unique_ptr<RecordConverter> records_;  ///< for the tables' and buffers' formats alone
     Device device_;
     SceneTables scene_tables_;

@@ -32,6 +32,7 @@ struct DeviceMethod {
     std::string kernel;                              ///< of the files that source() in device_method.cpp joins
     std::vector<std::vector<std::uint32_t>> tables;  ///< the method's own, from table 2 on (kernels/covered.h)
     bool item_a_ray = false;                         ///< else a work-item is a node of kernel 3's lists
+    std::size_t group = 0;                           ///< work-items of a group; 0: as many as csgrt's kernels have
     std::size_t ray_words = 0;                       ///< of memory that a ray has, 0 at first
     std::map<std::string, double> figures;
     std::function<std::unique_ptr<DeviceWork>(Device&)> work = {};  ///< none: the kernel looks for owners

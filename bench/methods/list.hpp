@@ -18,6 +18,7 @@
     METHOD(bisection)         \
     METHOD(sphere_tracing)    \
     METHOD(yang_lists)        \
+    METHOD(thesis)            \
     METHOD(depth_buffer)      \
     METHOD(meshes)
 
