@@ -23,8 +23,8 @@ void print_head(const Figures& f) {
     std::printf(" %8s %8s", "kernels", "frame");
     if (f.orbit) std::printf(" %8s", "worst");
     std::printf(" | %8s %8s %8s", "compile", "build", "first");
-    // BRL-CAD 7.32.6 and the thesis: see workloads.hpp.
-    std::printf(" | %7s %8s %8s %8s\n", "thesis", "BRL cpu2", "BRL pocl", "BRL H200");
+    // BRL-CAD 7.32.6: see workloads.hpp.
+    std::printf(" | %8s %8s %8s\n", "BRL cpu2", "BRL pocl", "BRL H200");
 }
 
 void print_figure(double ms) {
@@ -61,7 +61,7 @@ void print(const std::vector<Figures>& all) {
         std::printf(" | %8.1f %8.1f %8.1f |", f.time("compile"), f.time("build"), f.time("first"));
         const Workload* workload = workload_of(f);
         for (double Workload::*figure :
-             {&Workload::thesis_ms, &Workload::brlcad_cpu_ms, &Workload::brlcad_pocl_ms, &Workload::brlcad_h200_ms})
+             {&Workload::brlcad_cpu_ms, &Workload::brlcad_pocl_ms, &Workload::brlcad_h200_ms})
             print_figure(workload != nullptr && f.size == 1024 ? workload->*figure : 0);
         std::printf("\n");
     }
