@@ -103,13 +103,19 @@ void count_as_brlcad(const Subject& subject, const Options& options, Json& json)
     std::uint64_t solids = 0, segments = 0, pipes = 0;
     std::map<int, std::vector<std::uint32_t>> groups;  // by how often more than once
     std::vector<std::uint32_t> of_pipes;
-    for (const auto& [instance, count] : copies) {
-        solids += std::uint64_t(count);
-        if (count > 1) groups[count - 1].push_back(instance);
+    for (const auto& [instance, often] : copies) {
+        solids += std::uint64_t(often);
+        if (often > 1) groups[often - 1].push_back(instance);
         const auto& solid = std::get<Solid>(subject.scene.objects[flat.instances[instance].object]);
         if (std::holds_alternative<Pipe>(solid.shape)) of_pipes.push_back(instance);
     }
     const RayGrid grid = subject.model.grid_of(view_of(subject, options.size, true));
+    const auto count = [&](Scene scene, const std::vector<std::string>& objects) {
+        Renderer renderer(Model(std::move(scene), objects), settings_of(options.devices.front(), options));
+        Partitions partitions;
+        renderer.partitions(grid, partitions);
+        return renderer.statistics();
+    };
     const auto segments_of = [&](const std::vector<std::uint32_t>& instances) -> std::uint64_t {
         if (instances.empty()) return 0;
         Scene scene = subject.scene;
@@ -122,16 +128,20 @@ void count_as_brlcad(const Subject& subject, const Options& options, Json& json)
                             .tree = tree(std::get<Solid>(scene.objects[instance.object]).name, *instance.matrix),
                             .region = true});
         }
-        Renderer renderer(Model(std::move(scene), names), settings_of(options.devices.front(), options));
-        Partitions partitions;
-        renderer.partitions(grid, partitions);
-        return renderer.statistics().segments;
+        return count(std::move(scene), names).segments;
     };
     for (const auto& [more, instances] : groups) segments += std::uint64_t(more) * segments_of(instances);
     pipes = segments_of(of_pipes);
+    Scene without_pipes = subject.scene;
+    for (Object& object : without_pipes.objects)
+        if (auto* const solid = std::get_if<Solid>(&object); solid && std::holds_alternative<Pipe>(solid->shape))
+            solid->shape = Ell{{}, {1e-6, 0, 0}, {0, 1e-6, 0}, {0, 0, 1e-6}};  // no ray of the picture meets it
     json["solids"] = std::count_if(flat.instances.begin(), flat.instances.end(),
                                    [](const Instance& instance) { return instance.piece == 0; });
     json["brlcad"] = {{"solids", solids}, {"segments_counted_again", segments}, {"segments_of_pipes", pipes}};
+    if (pipes > 0)
+        json["brlcad"]["partitions_without_pipes"] =
+            count(std::move(without_pipes), subject.published.objects).partitions_used;
 }
 
 /// What is kept of one device in one mode.
