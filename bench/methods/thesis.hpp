@@ -12,9 +12,9 @@ struct ThesisSwitch {
 };
 inline constexpr ThesisSwitch thesis_switches[] = {
     {"as in the thesis", "thesis"},
-    {"no list of regions a primitive: all trees are searched", "thesis_searches_regions"},
-    {"segments: bit arrays, asked one by one", "thesis_without_clz"},
-    {"segments: bit arrays, written once more", "thesis_makes_bits"},
+    {"no list of a primitive's regions", "thesis_searches_regions"},
+    {"segments: bits one by one, no clz", "thesis_without_clz"},
+    {"segments: bits, written once more", "thesis_makes_bits"},
     {"segments: lists", "thesis_makes_lists"},
     {"regions: a list", "thesis_lists_regions"},
     {"postfix, without early out", "thesis_postfix"},

@@ -380,9 +380,13 @@ int main(int argc, char** argv) {
         const Options options = parse(argc, argv);
         // PoCL reads it when it starts.
         if (options.threads > 0) setenv("POCL_MAX_PTHREAD_COUNT", std::to_string(options.threads).c_str(), 1);
-        const std::string text = run(options).dump(1) + "\n";
+        Json json = run(options);
+        const Json models = std::move(json["models"]);
+        json.erase("models");
         std::ofstream file(options.json);
-        file << text;
+        file << json.dump().substr(0, json.dump().size() - 1) << ",\n\"models\": [";  // a line a model
+        for (std::size_t i = 0; i < models.size(); ++i) file << (i ? ",\n" : "\n") << models[i].dump();
+        file << "\n]}\n";
         if (!file.flush()) throw Error(Status::file, options.json + ": cannot be written");
         return 0;
     });
