@@ -51,6 +51,7 @@ struct Options {
 
 struct Subject {
     const Published& published;
+    std::vector<std::string> objects;
     Scene scene;
     Model model;
 };
@@ -98,7 +99,7 @@ std::map<std::uint32_t, int> copies_as_brlcad_counts(const FlatScene& flat) {
 
 /// Solids as BRL-CAD counts them, and the segments of the picture's rays that come of counting solids again.
 void count_as_brlcad(const Subject& subject, const Options& options, Json& json) {
-    const FlatScene flat = flatten(subject.scene, subject.published.objects, false);
+    const FlatScene flat = flatten(subject.scene, subject.objects, false);
     const std::map<std::uint32_t, int> copies = copies_as_brlcad_counts(flat);
     std::uint64_t solids = 0, segments = 0, pipes = 0;
     std::map<int, std::vector<std::uint32_t>> groups;  // by how often more than once
@@ -140,8 +141,7 @@ void count_as_brlcad(const Subject& subject, const Options& options, Json& json)
                                    [](const Instance& instance) { return instance.piece == 0; });
     json["brlcad"] = {{"solids", solids}, {"segments_counted_again", segments}, {"segments_of_pipes", pipes}};
     if (pipes > 0)
-        json["brlcad"]["partitions_without_pipes"] =
-            count(std::move(without_pipes), subject.published.objects).partitions_used;
+        json["brlcad"]["partitions_without_pipes"] = count(std::move(without_pipes), subject.objects).partitions_used;
 }
 
 /// What is kept of one device in one mode.
@@ -244,7 +244,7 @@ void count_repairs(const Subject& subject, const Options& options, Json& json) {
 }
 
 void run_switches(const Subject& subject, const Options& options, const std::string& device, Json& json) {
-    const CompiledScene compiled = compile(subject.scene, subject.published.objects);
+    const CompiledScene compiled = compile(subject.scene, subject.objects);
     const std::vector<Ray> rays = subject.model.grid_of(view_of(subject, options.claims, true)).rays();
     const std::vector<RayPartitions> expected = Renderer(subject.model, settings_of("reference", options)).shoot(rays);
     struct Trial {
@@ -255,7 +255,7 @@ void run_switches(const Subject& subject, const Options& options, const std::str
     std::vector<Trial> trials;
     for (std::size_t i = 0; i < std::size(thesis_switches); ++i) {
         Trial& trial = trials.emplace_back();
-        trial.tracer = thesis().prepare({subject.scene, subject.published.objects, compiled},
+        trial.tracer = thesis().prepare({subject.scene, subject.objects, compiled},
                                         {.knob = double(i), .first_hits = true, .device = device});
         const std::vector<Answer> answers = trial.tracer->trace(rays);  // compiles and takes memory
         for (std::size_t ray = 0; ray < rays.size(); ++ray) {
@@ -340,8 +340,9 @@ Json run(const Options& options) {
             continue;
         }
         Scene scene = load_scene(path);
-        Model model(scene, p.objects);
-        const Subject subject{p, std::move(scene), std::move(model)};
+        std::vector<std::string> objects = p.objects.empty() ? top_objects(scene) : p.objects;
+        Model model(scene, objects);
+        const Subject subject{p, std::move(objects), std::move(scene), std::move(model)};
         Json entry = {{"name", p.name},
                       {"file", p.file},
                       {"objects", p.objects},

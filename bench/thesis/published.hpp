@@ -8,10 +8,10 @@
 namespace csgrt::bench {
 
 struct Published {
-    std::string name, file;  ///< file: in the folder of BRL-CAD's models
-    std::vector<std::string> objects;
-    double view_size = 0;  ///< millimetres; 0: csgrt's default, BRL-CAD's view of the model
-    std::string workload;  ///< of workloads.hpp, with what was measured of BRL-CAD
+    std::string name, file;            ///< file: in the folder of BRL-CAD's models
+    std::vector<std::string> objects;  ///< none: the top objects
+    double view_size = 0;              ///< millimetres; 0: csgrt's default, BRL-CAD's view of the model
+    std::string workload;              ///< of workloads.hpp, with what was measured of BRL-CAD
     int primitives = 0, regions = 0;
     int segments = 0, partitions = 0, allocated = 0;
     double megabytes = 0;
