@@ -371,6 +371,8 @@ Json run(const Options& options) {
         json["models"].push_back(std::move(entry));
         std::fprintf(stderr, "%s: done\n", p.name.c_str());
     }
+    if (json["models"].empty())
+        throw Error(Status::file, options.models + ": it has none of the models; --models FOLDER");
     return json;
 }
 

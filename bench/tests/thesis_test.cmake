@@ -1,0 +1,41 @@
+# docs/thesis.md has what bench/thesis/document makes of the files in bench/thesis, and nothing typed into its tables.
+# Where BRL-CAD's models are: csgrt_thesis measures two of them, finds the thesis's counts, and draws a map.
+# cmake -DROOT=... -DTHESIS=csgrt_thesis -DPYTHON=... -DWORK=... -P thesis_test.cmake
+file(REMOVE_RECURSE ${WORK})
+file(MAKE_DIRECTORY ${WORK}/images)
+set(page ${WORK}/thesis.md)
+file(COPY ${ROOT}/docs/thesis.md DESTINATION ${WORK})
+set(document ${PYTHON} ${ROOT}/bench/thesis/document --document ${page})
+execute_process(COMMAND ${document} COMMAND_ERROR_IS_FATAL ANY)
+file(READ ${ROOT}/docs/thesis.md expected)
+file(READ ${page} made)
+if(NOT made STREQUAL expected)
+    message(FATAL_ERROR "docs/thesis.md is not what bench/thesis/document makes of bench/thesis/*.json: run it")
+endif()
+
+execute_process(COMMAND ${THESIS} --models ${WORK} --json ${WORK}/none.json RESULT_VARIABLE status ERROR_VARIABLE text)
+if(NOT status EQUAL 6 OR NOT text MATCHES "has none of the models")
+    message(FATAL_ERROR "without models: status ${status}, ${text}")
+endif()
+
+set(models ${ROOT}/../shared/brlcad)
+if(NOT EXISTS ${models})
+    message("SKIPPED: there is no ${models}")
+    return()
+endif()
+execute_process(COMMAND ${THESIS} --models ${models} --only operators,goliath --size 64 --rounds 1 --claims 0
+    --maps ${WORK} --json ${WORK}/new.json COMMAND_ERROR_IS_FATAL ANY)
+file(READ ${WORK}/new.json json)
+string(JSON regions GET ${json} models 0 regions)
+string(JSON solids GET ${json} models 1 solids)
+string(JSON parts GET ${json} models 1 parts)
+string(JSON again GET ${json} models 1 brlcad solids)
+if(NOT "${regions} ${solids} ${parts} ${again}" STREQUAL "20 3336 3350 3779")
+    message(FATAL_ERROR "regions of operators, solids, parts and BRL-CAD's solids of goliath: "
+        "${regions} ${solids} ${parts} ${again}")
+endif()
+execute_process(COMMAND ${document} --maps ${WORK} ${WORK}/new.json COMMAND_ERROR_IS_FATAL ANY)
+file(READ ${page} made)
+if(NOT made MATCHES "`new.json`" OR made MATCHES "[|] Havoc [|]" OR NOT EXISTS ${WORK}/images/thesis-goliath.png)
+    message(FATAL_ERROR "the new measurement did not get into the document:\n${made}")
+endif()
