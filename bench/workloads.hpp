@@ -18,6 +18,22 @@ struct Workload {
     std::uint32_t parts = 0;  ///< solids of a generated scene, see parts.hpp
 };
 
+/// BRL-CAD 7.45 (August 2026; -O3 -march=native, link-time optimization), shooting time of `rt -R` in C, and csgrt
+/// 7e9eb58, native, first hits of colours alone, in turn on a quiet Xeon with AVX-512 (2026-11-28): wall milliseconds
+/// with 2 and with 16 threads. And on another Xeon the processor time of `rt -P1` in times of csgrt's.
+struct BesideBrlcad {
+    std::string workload;
+    double rt_2, csgrt_2, rt_16, csgrt_16, one_thread;
+};
+inline const std::vector<BesideBrlcad>& beside_brlcad() {
+    static const std::vector<BesideBrlcad> all = {
+        {"boolean-ops", 83, 6.5, 22, 1.7, 8.4}, {"operators", 101, 17.5, 26, 3.6, 4.6},
+        {"truck", 94, 14.5, 24, 2.9, 4.7},      {"tank_car", 227, 30, 44, 5.5, 6.6},
+        {"havoc", 397, 46, 76, 6.2, 11.7},      {"goliath", 247, 54, 40, 6.0, 5.7},
+    };
+    return all;
+}
+
 inline const std::vector<Workload>& workloads() {
     static const std::vector<Workload> all = {
         {"boolean-ops", "boolean-ops.asc", {"all"}, 59, 113, 50},

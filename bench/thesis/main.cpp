@@ -360,6 +360,13 @@ Json run(const Options& options) {
                 entry["recorded"] = {{"brlcad_cpu_ms", w.brlcad_cpu_ms},
                                      {"brlcad_pocl_ms", w.brlcad_pocl_ms},
                                      {"brlcad_h200_ms", w.brlcad_h200_ms}};
+        for (const BesideBrlcad& b : beside_brlcad())
+            if (b.workload == p.workload)
+                entry["beside_brlcad"] = {{"BRL-CAD 7.45, C, 2 threads", b.rt_2},
+                                          {"csgrt beside it", b.csgrt_2},
+                                          {"BRL-CAD 7.45, C, 16 threads", b.rt_16},
+                                          {"csgrt beside that", b.csgrt_16},
+                                          {"one thread: BRL-CAD / csgrt", b.one_thread}};
         count_as_brlcad(subject, options, entry);
         measure(subject, options, entry);
         for (const std::string& device : options.devices) {
