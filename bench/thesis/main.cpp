@@ -285,8 +285,8 @@ void run_switches(const Subject& subject, const Options& options, const std::str
 
 Options parse(int argc, char** argv) {
     Options o;
-    for (int i = 0; i < argc; ++i)
-        o.command += (i ? " " : "") + (i ? std::string(argv[i]) : std::filesystem::path(argv[0]).filename().string());
+    for (int i = 0; i < argc; ++i)  // without folders, which are this machine's
+        o.command += (i ? " " : "") + std::filesystem::path(argv[i]).filename().string();
     OptionReader options;
     options.value("--device", [&](const std::string& device) { o.devices.push_back(device); });
     options.number("--threads", o.threads, 0, 1024);
