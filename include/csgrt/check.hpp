@@ -75,8 +75,8 @@ struct FoundOverlap {
 
 /// A pair of regions whose boxes overlap, which is not among the overlaps that a check lists.
 struct UnlistedPair {
-    std::array<std::uint32_t, 2> regions = {};  ///< indices into Model::regions(), ascending
-    bool is_seen = false;                       ///< Whether a ray has shown that the two overlap.
+    std::array<std::uint32_t, 2> regions = {};  ///< Indices of the regions, ascending.
+    bool is_seen = false;                       ///< Whether the two were found to overlap.
     double depth_at_most = 0;  ///< Millimetres: no ball in an overlap of the two has a larger diameter.
 };
 

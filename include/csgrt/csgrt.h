@@ -921,6 +921,9 @@ typedef struct csgrt_check_request {
     size_t size;
     /// Millimetres: the diameter of the largest ball in an overlap from which on it counts.
     double min_depth;
+    /// Millimetres, at least `min_depth`: each pair whose overlap holds a ball of this diameter is listed. 0: no such
+    /// promise.
+    double certain;
     /// How many times the usual number of cells of a candidate are searched.
     double effort;
     /// Seed of the random numbers.
@@ -933,8 +936,11 @@ typedef struct csgrt_check_request {
 /// csgrt::CheckResult. In place of a list it has the length.
 typedef struct csgrt_check_result {
     size_t size;
-    /// At least half of the least depth deep, the deepest first.
+    /// At least half of the least depth deep, the deepest first. With CheckRequest::certain, less deep ones, too, if
+    /// their `depth_at_most` is not below it.
     uint64_t overlaps;
+    /// All other candidates, the largest `depth_at_most` first.
+    uint64_t unlisted;
     /// Rows of the request's list that no overlap needs.
     uint64_t unused;
     /// Indices of regions without an end. Only their parts within the box of all others were searched.
@@ -960,8 +966,11 @@ typedef struct csgrt_found_overlap {
     uint32_t regions[2];
     /// Millimetres: the centre of the largest ball that was found in it.
     csgrt_vec3 place;
-    /// Millimetres: the diameter of the largest ball that was found in it, measured along rays. An estimate.
+    /// Millimetres: the diameter of the largest ball that was found in it.
     double depth;
+    /// Whether the ball was only measured along rays, and may be too large. Else it lies in the overlap, by the
+    /// distances from the surfaces of the regions' solids.
+    int is_estimate;
     /// Millimetres: no ball in it has a larger diameter.
     double depth_at_most;
     /// In mm^3.
@@ -981,6 +990,17 @@ typedef struct csgrt_found_overlap {
     int is_new;
 } csgrt_found_overlap;
 
+/// csgrt::UnlistedPair
+typedef struct csgrt_unlisted_pair {
+    size_t size;
+    /// Indices of the regions, ascending.
+    uint32_t regions[2];
+    /// Whether the two were found to overlap.
+    int is_seen;
+    /// Millimetres: no ball in an overlap of the two has a larger diameter.
+    double depth_at_most;
+} csgrt_unlisted_pair;
+
 /// csgrt::Checker: the regions of a model that overlap.
 typedef struct csgrt_checker csgrt_checker;
 CSGRT_API csgrt_status csgrt_checker_create(const csgrt_model* model, const csgrt_settings* settings,
@@ -992,6 +1012,7 @@ CSGRT_API csgrt_status csgrt_checker_check(csgrt_checker* checker, const csgrt_c
                                            csgrt_check_result* result);
 /// Items of the lists of the last result. The texts are valid until the next call of csgrt_checker_check().
 CSGRT_API csgrt_status csgrt_checker_overlap(const csgrt_checker* checker, size_t index, csgrt_found_overlap* overlap);
+CSGRT_API csgrt_status csgrt_checker_unlisted(const csgrt_checker* checker, size_t index, csgrt_unlisted_pair* pair);
 CSGRT_API csgrt_status csgrt_checker_unused(const csgrt_checker* checker, size_t index, csgrt_allowed_overlap* row);
 CSGRT_API csgrt_status csgrt_checker_unbounded(const csgrt_checker* checker, size_t index, uint32_t* region);
 /// Reads a list of allowed overlaps (csgrt::load_allowed_overlaps()), which counts for requests without a list.
@@ -1028,6 +1049,7 @@ CSGRT_API void csgrt_measured_grid_init(csgrt_measured_grid* measured_grid);
 CSGRT_API void csgrt_check_request_init(csgrt_check_request* check_request);
 CSGRT_API void csgrt_check_result_init(csgrt_check_result* check_result);
 CSGRT_API void csgrt_found_overlap_init(csgrt_found_overlap* found_overlap);
+CSGRT_API void csgrt_unlisted_pair_init(csgrt_unlisted_pair* unlisted_pair);
 
 // clang-format off
 #define CSGRT_DIAGNOSTIC {sizeof(csgrt_diagnostic), "", "", "", "", "", 0, 0, -1, 1, 0}
@@ -1064,10 +1086,11 @@ CSGRT_API void csgrt_found_overlap_init(csgrt_found_overlap* found_overlap);
 #define CSGRT_MEASUREMENT {sizeof(csgrt_measurement), 0, 0, 0, 0, 0}
 #define CSGRT_MEASURED_GRID {sizeof(csgrt_measured_grid), {0, 0, 0}, {{0, 0, 0}, {0, 0, 0}}, \
     {0, NULL, NULL, NULL, NULL}, {0, NULL, NULL, NULL, NULL}}
-#define CSGRT_CHECK_REQUEST {sizeof(csgrt_check_request), 0.01, 1, 1, NULL, 0}
-#define CSGRT_CHECK_RESULT {sizeof(csgrt_check_result), 0, 0, 0, 0, 0, 0, 0, 1, 0}
-#define CSGRT_FOUND_OVERLAP {sizeof(csgrt_found_overlap), {0, 0}, {0, 0, 0}, 0, 0, {0, 0}, {{0, 0, 0}, {0, 0, 0}}, \
+#define CSGRT_CHECK_REQUEST {sizeof(csgrt_check_request), 0.01, 0, 1, 1, NULL, 0}
+#define CSGRT_CHECK_RESULT {sizeof(csgrt_check_result), 0, 0, 0, 0, 0, 0, 0, 0, 1, 0}
+#define CSGRT_FOUND_OVERLAP {sizeof(csgrt_found_overlap), {0, 0}, {0, 0, 0}, 0, 1, 0, {0, 0}, {{0, 0, 0}, {0, 0, 0}}, \
     {{0, 0, 0}, {0, 0, 0}}, 0, 0, 0, 0, 0}
+#define CSGRT_UNLISTED_PAIR {sizeof(csgrt_unlisted_pair), {0, 0}, 0, 0}
 // clang-format on
 
 #ifdef __cplusplus

@@ -19,7 +19,7 @@ from ._solids import Part, box, cone, cylinder, rotate, scale, solid, sphere, to
 from ._values import (
     CellVolumes, CheckResult, Child, Device, DeviceName, Diagnostic, Error, Estimate, FoundOverlap, Hits, Material,
     Measured, MeasuredGrid, Measurement, Partitions, Pick, Place, Region, Regions, SceneWarning, Solid, Verification,
-    Wall, Warning,
+    UnlistedPair, Wall, Warning,
 )
 
 
@@ -32,6 +32,7 @@ __all__ = [
     "Camera", "CellVolumes", "CheckRequest", "CheckResult", "Child", "Device", "DeviceName", "Diagnostic", "Error",
     "Estimate", "FoundOverlap", "Hits", "Image", "Material", "MeasureRequest", "Measured", "MeasuredGrid",
     "Measurement", "Page", "Part", "Partitions", "Pick", "Place", "Region", "Regions", "Scene", "SceneWarning",
-    "Settings", "Solid", "Subtree", "Verification", "View", "Wall", "Warning", "box", "cone", "cylinder", "devices",
-    "load", "parse", "rays_parallel", "rays_pinhole", "rotate", "scale", "solid", "sphere", "torus", "translate",
+    "Settings", "Solid", "Subtree", "UnlistedPair", "Verification", "View", "Wall", "Warning", "box", "cone",
+    "cylinder", "devices", "load", "parse", "rays_parallel", "rays_pinhole", "rotate", "scale", "solid", "sphere",
+    "torus", "translate",
 ]

@@ -434,6 +434,7 @@ class FoundOverlap(NamedTuple):
     regions: tuple[int, int]
     place: Triple
     depth: float
+    is_estimate: bool
     depth_at_most: float
     volume: Estimate
     box: Bounds
@@ -449,10 +450,23 @@ _describe(FoundOverlap, paths="Those of the regions",
           link="Behind the address that `csgrt view` prints it leads to the overlap", **overlap_members)
 
 
+class UnlistedPair(NamedTuple):
+    """Two regions whose boxes overlap, which are not among the overlaps that a check lists."""
+
+    paths: tuple[str, str]
+    is_seen: bool
+    depth_at_most: float
+
+
+_describe(UnlistedPair, paths="Those of the regions", is_seen="Whether the two were found to overlap",
+          depth_at_most="Millimetres: no ball in an overlap of the two has a larger diameter")
+
+
 class CheckResult:
     """What Scene.check() answers: its overlaps, the deepest first. It is false if there are none.
 
-    overlaps: those at least half of the least depth deep. unused: rows of `allowed` that no overlap needs. unbounded:
+    overlaps: those at least half of the least depth deep. unlisted: an UnlistedPair for each other pair whose boxes
+    overlap, the largest depth_at_most first. unused: rows of `allowed` that no overlap needs. unbounded:
     paths of regions without an end, which were searched within the box of the others. new_overlaps: the number of
     those that are new. candidates: the number of pairs whose boxes overlap. shallow: the number of pairs that overlap
     by less than half of the least depth. rays: how many were traced. is_complete: always True, since Ctrl-C raises
@@ -466,10 +480,11 @@ class CheckResult:
     is_complete: bool
     seconds: float
 
-    def __init__(self, rows: Iterable[Any], unused: list[tuple[str, str]], unbounded: list[str],
-                 numbers: Mapping[str, Any]):
+    def __init__(self, rows: Iterable[Any], unlisted: Iterable[Any], unused: list[tuple[str, str]],
+                 unbounded: list[str], numbers: Mapping[str, Any]):
         overlaps = [FoundOverlap(*row) for row in rows]
         self.overlaps: list[FoundOverlap] = [o._replace(volume=Estimate(*o.volume)) for o in overlaps]
+        self.unlisted: list[UnlistedPair] = [UnlistedPair(*pair) for pair in unlisted]
         self.unused: list[tuple[str, str]] = unused
         self.unbounded: list[str] = unbounded
         vars(self).update(numbers)

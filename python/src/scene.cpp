@@ -467,9 +467,13 @@ Row checked(LiveScene& scene, const CheckRequest& request) {
     scene.run([&](Renderer&) { result = Checker(model, scene.settings()).check(request); });
     const auto path = [&](std::uint32_t region) { return model.regions()[region].path; };
     Rows overlaps;
+    Rows unlisted;
     nb::list unused, unbounded;
     for (const FoundOverlap& o : result.overlaps)
         overlaps.append(row_of(o, nb::make_tuple(path(o.regions[0]), path(o.regions[1])), link_of(o, model)));
+    for (const UnlistedPair& pair : result.unlisted)
+        unlisted.append(nb::make_tuple(nb::make_tuple(path(pair.regions[0]), path(pair.regions[1])), pair.is_seen,
+                                       pair.depth_at_most));
     for (const AllowedOverlap& row : result.unused) unused.append(nb::make_tuple(row.first, row.second));
     for (const std::uint32_t region : result.unbounded) unbounded.append(path(region));
     nb::dict numbers;
@@ -477,7 +481,7 @@ Row checked(LiveScene& scene, const CheckRequest& request) {
         if constexpr (!std::is_same_v<std::remove_cvref_t<decltype(member.kind)>, form::Listed>)
             numbers[std::string(member.key.member).c_str()] = result.*member.at;
     });
-    return nb::make_tuple(overlaps, unused, unbounded, numbers);
+    return nb::make_tuple(overlaps, unlisted, unused, unbounded, numbers);
 }
 
 }  // namespace

@@ -32,6 +32,11 @@ csgrt_status csgrt_checker_overlap(const csgrt_checker* checker, size_t index, c
     });
 }
 
+csgrt_status csgrt_checker_unlisted(const csgrt_checker* checker, size_t index, csgrt_unlisted_pair* pair) {
+    return call(
+        [&] { fill(pair, shown<csgrt_unlisted_pair>(item(CSGRT_NEED(checker).result.unlisted, index)), "pair"); });
+}
+
 csgrt_status csgrt_checker_unused(const csgrt_checker* checker, size_t index, csgrt_allowed_overlap* row) {
     return call([&] {
         const AllowedOverlap& unused = item(CSGRT_NEED(checker).result.unused, index);

@@ -47,7 +47,10 @@ inline constexpr auto of<FoundOverlap> = Form{
     required("place", &FoundOverlap::place, vector,
              "Millimetres: the centre of the largest ball that was found in it."),
     required("depth", &FoundOverlap::depth, number,
-             "Millimetres: the diameter of the largest ball that was found in it, measured along rays. An estimate."),
+             "Millimetres: the diameter of the largest ball that was found in it."),
+    required("is_estimate", &FoundOverlap::is_estimate, flag,
+             "Whether the ball was only measured along rays, and may be too large. Else it lies in the overlap, by the "
+             "distances from the surfaces of the regions' solids."),
     required("depth_at_most", &FoundOverlap::depth_at_most, number,
              "Millimetres: no ball in it has a larger diameter."),
     required("volume", &FoundOverlap::volume, object<Estimate>, "In mm^3."),
@@ -63,9 +66,22 @@ inline constexpr auto of<FoundOverlap> = Form{
 };
 
 template <>
+inline constexpr auto of<UnlistedPair> = Form{
+    plain("unlisted_pair"),
+    required("regions", &UnlistedPair::regions, List{count, 2, 2}, "Indices of the regions, ascending."),
+    required("is_seen", &UnlistedPair::is_seen, flag, "Whether the two were found to overlap."),
+    required("depth_at_most", &UnlistedPair::depth_at_most, number,
+             "Millimetres: no ball in an overlap of the two has a larger diameter."),
+};
+
+template <>
 inline constexpr auto of<CheckResult> = Form{
     plain("check_result"),
-    required("overlaps", &CheckResult::overlaps, listed, "At least half of the least depth deep, the deepest first."),
+    required(
+        "overlaps", &CheckResult::overlaps, listed,
+        "At least half of the least depth deep, the deepest first. With CheckRequest::certain, less deep ones, too, "
+        "if their `depth_at_most` is not below it."),
+    required("unlisted", &CheckResult::unlisted, listed, "All other candidates, the largest `depth_at_most` first."),
     required("unused", &CheckResult::unused, listed, "Rows of the request's list that no overlap needs."),
     required("unbounded", &CheckResult::unbounded, listed,
              "Indices of regions without an end. Only their parts within the box of all others were searched."),

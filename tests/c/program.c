@@ -151,6 +151,7 @@ int main(void) {
         csgrt_check_request request = CSGRT_CHECK_REQUEST;
         csgrt_check_result result = CSGRT_CHECK_RESULT;
         csgrt_found_overlap overlap = CSGRT_FOUND_OVERLAP;
+        csgrt_unlisted_pair pair = CSGRT_UNLISTED_PAIR;
         csgrt_allowed_overlap unused;
         csgrt_settings settings = CSGRT_SETTINGS;
         uint32_t open_region = 0;
@@ -171,7 +172,8 @@ int main(void) {
         EXPECT(csgrt_checker_create(next, NULL, &checker) == CSGRT_OK);
         EXPECT(csgrt_checker_check(checker, NULL, &result) == CSGRT_OK);
         EXPECT(result.overlaps == 1 && result.new_overlaps == 1 && result.is_complete && result.rays > 0);
-        EXPECT(result.unbounded == 1 && result.unused == 0);
+        EXPECT(result.unbounded == 1 && result.unused == 0 && result.unlisted == 2);
+        EXPECT(csgrt_checker_unlisted(checker, 0, &pair) == CSGRT_OK && pair.regions[1] == 2 && !pair.is_seen);
         EXPECT(csgrt_checker_unbounded(checker, 0, &open_region) == CSGRT_OK && open_region == 2);
         EXPECT(csgrt_checker_overlap(checker, 0, &overlap) == CSGRT_OK);
         EXPECT(overlap.regions[0] == 0 && overlap.regions[1] == 1 && overlap.is_new && !overlap.is_allowed);

@@ -231,6 +231,7 @@ std::vector<std::string> made_of_header() {
             c_struct<CheckRequest>(),
             c_struct<CheckResult>(),
             c_struct<FoundOverlap>(),
+            c_struct<UnlistedPair>(),
             c_defaults<Settings>(),
             c_defaults<DeviceInfo>(),
             c_defaults<LoadOptions>(),
@@ -243,7 +244,8 @@ std::vector<std::string> made_of_header() {
             c_defaults<MeasureRequest>(),
             c_defaults<CheckRequest>(),
             c_defaults<CheckResult>(),
-            c_defaults<FoundOverlap>()};
+            c_defaults<FoundOverlap>(),
+            c_defaults<UnlistedPair>()};
 }
 
 /// Replaces what begins as `made` does: up to its last line, or of a macro to the end of its lines.
@@ -325,11 +327,12 @@ std::string settings_page() {
            list<Slice>("csgrt::Slice") + list<RegionInfo>("csgrt::RegionInfo") + list<SolidInfo>("csgrt::SolidInfo") +
            list<ChildInfo>("csgrt::ChildInfo") + list<MeasureRequest>("csgrt::MeasureRequest") +
            list<CheckRequest>("csgrt::CheckRequest") + list<CheckResult>("csgrt::CheckResult") +
-           list<FoundOverlap>("csgrt::FoundOverlap") + list<DeviceInfo>("csgrt::DeviceInfo") +
-           list<Statistics>("csgrt::Statistics") + "## Names and their numbers\n\n" +
-           names_line("Precision", every_precision) + names_line("Tolerance", every_tolerance) +
-           names_line("Light", lighting_names) + names_line("State", state_names) +
-           names_line("Fastgen", fastgen_names) + names_line("Operator", operator_names) +
+           list<FoundOverlap>("csgrt::FoundOverlap") + list<UnlistedPair>("csgrt::UnlistedPair") +
+           list<DeviceInfo>("csgrt::DeviceInfo") + list<Statistics>("csgrt::Statistics") +
+           "## Names and their numbers\n\n" + names_line("Precision", every_precision) +
+           names_line("Tolerance", every_tolerance) + names_line("Light", lighting_names) +
+           names_line("State", state_names) + names_line("Fastgen", fastgen_names) +
+           names_line("Operator", operator_names) +
            names_line("Channels, whose sum is what a picture has", channel_names) +
            names_line("Status, which is the command's, too", status_names);
 }
@@ -472,6 +475,7 @@ TEST_CASE("each sentence stands in the C++ header") {
     require_sentences<CheckRequest>("include/csgrt/check.hpp");
     require_sentences<CheckResult>("include/csgrt/check.hpp");
     require_sentences<FoundOverlap>("include/csgrt/check.hpp");
+    require_sentences<UnlistedPair>("include/csgrt/check.hpp");
 }
 
 TEST_CASE("C's structs and docs/settings.md are made of the descriptions") {
