@@ -97,7 +97,7 @@ def scatter(axes, measured):
         bars = [[max(0, y - t["wrong_ppm_interval"][0]) * 0.99 if t["wrong"] else 0 for t, y in zip(of, ys)],
                 [max(0, t["wrong_ppm_interval"][1] - y) for t, y in zip(of, ys)]]
         whole = all(t["variant"] in measured.whole for t in of)
-        axes.errorbar(xs, ys, yerr=bars, label=method + ("" if whole else " (part of the rays)"), **style,
+        axes.errorbar(xs, ys, yerr=bars, label=method + ("" if whole else " *"), **style,
                       markerfacecolor=style["color"] if whole else "white", linestyle=":" if len(of) > 1 else "",
                       linewidth=1, elinewidth=0.6, zorder=3)
     draw_front(axes, [(drawn[n]["of_default"], height(drawn[n])) for n in measured.front])
@@ -125,7 +125,8 @@ def draw(data, modes, name, folder):
     draw_names(figure.add_subplot(grid[1, :]), panels, 6)
     decided = max((t["decided"] for t in data["totals"] if t.get("decided")), default=0)
     figure.suptitle(f"csgrt {data['csgrt']} on {data['device']}: up to {decided:,} decided rays a method; time: "
-                    f"geometric mean over {len(data['timed_workloads'])} workloads, {data['size']} x {data['size']}",
+                    f"geometric mean over {len(data['timed_workloads'])} workloads, {data['size']} x {data['size']}; "
+                    "*: part of the rays",
                     fontsize=9)
     write(figure, os.path.join(folder, name + ".png"))
     pyplot.close(figure)
