@@ -39,6 +39,7 @@ void OverlapSearch::find_candidates() {
         if (!has_inside(region.bounds) || !is_finite(region.bounds)) continue;
         include(all, region.bounds);
     }
+    const auto& ranks = compiled_scene(model).rank_ends;
     std::vector<std::uint32_t> order(boxes.size()), open;
     std::iota(order.begin(), order.end(), 0);
     for (const std::uint32_t r : order) {
@@ -53,7 +54,7 @@ void OverlapSearch::find_candidates() {
         std::erase_if(open, [&](std::uint32_t other) { return boxes[other].high.x <= box.low.x; });
         for (const std::uint32_t other : open)
             if (const Box both = common(box, boxes[other]);
-                least_side(both) >= 0.5 * request.min_depth && has_inside(both))
+                least_side(both) >= 0.5 * request.min_depth && has_inside(both) && kernel::same_rank(ranks, r, other))
                 pairs.push_back({.first = std::min(r, other),
                                  .second = std::max(r, other),
                                  .box = both,

@@ -56,13 +56,14 @@ void OverlapSearch::refuse_what_is_too_fine() const {
         std::snprintf(text, sizeof text, format, values...);
         throw Error(Status::usage, text);
     };
+    const double needed = rays_for(request.certain);
+    if (needed == 0) return;
     if (shortest > of_part * request.certain)
         refuse(
             "no overlap of %g mm is certain to be found: parts of rays up to %.3g mm may not be seen, so at least "
             "%.3g mm must be asked for",
             request.certain, shortest, 1.01 * shortest / of_part);
     constexpr auto most = static_cast<double>(CheckRequest::most_rays);
-    const double needed = rays_for(request.certain);
     if (needed <= most) return;
     double possible = request.certain;
     while (rays_for(possible) > most) possible *= 1.05;

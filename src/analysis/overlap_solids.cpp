@@ -80,7 +80,7 @@ void OverlapSearch::bound(Pair& pair, OverlapDepth& depth, const Ball& near) con
         if (kept.size() < most_supports && std::ranges::none_of(kept, is_same)) kept.push_back(plane);
     }
     const double reach = length(pair.box.high - pair.box.low);
-    pair.at_most = std::min(pair.at_most, diameter_behind(kept, near.center, reach));
+    pair.at_most = std::max(0.0, std::min(pair.at_most, diameter_behind(kept, near.center, reach)));
 }
 
 /// Makes a pair's box smaller and looks for a point in the overlap, in cells, until it is bounded by `diameter`. A cell
@@ -160,7 +160,10 @@ void OverlapSearch::look_at_solids() {
     for_overlaps(all, [&](std::size_t i, OverlapDepth& depth) {
         Pair& pair = pairs[i];
         bound(pair, depth, {center_of(pair.box), 0.25 * least_side(pair.box)});
-        if (!is_shallow(pair)) search_by_solids(i, depth, 0.5 * request.min_depth, all_cells, few_cells);
+        // Of pairs that hold no ball of that size it is only told whether they overlap.
+        const double nothing = 1e-7 * length(pair.box.high - pair.box.low);
+        if (pair.at_most > nothing)
+            search_by_solids(i, depth, 0.5 * std::min(request.min_depth, pair.at_most), all_cells, few_cells);
         if (!(pair.sure.radius > 0)) return;
         pair.is_found = true;
         pair.chord = {{pair.sure.center, {1, 0, 0}}, -pair.sure.radius, pair.sure.radius};

@@ -122,3 +122,13 @@ TEST_CASE("requests that mean nothing are refused") {
     CHECK(says(thrown_by([&] { checker.check({.min_depth = 0}); }).text, "least depth"));
     CHECK(says(thrown_by([&] { checker.check({.effort = 1e4}); }).text, "effort"));
 }
+
+TEST_CASE("a region of air gives way, so it overlaps no solid") {
+    Scene scene = balls(10);
+    std::get<Combination>(scene.objects[3]).air = 1;
+    Settings settings = on_native();
+    settings.air = true;
+    const Model model(scene, {}, settings);
+    REQUIRE(model.regions().size() == 2);
+    CHECK(Checker(model, settings).check().overlaps.empty());
+}

@@ -13,8 +13,8 @@ using nlohmann::json;
 namespace {
 
 /// Two balls of radius 10, one of them about the origin, in csgrt's format.
-std::string balls(const std::array<double, 3>& other, const std::string& left = "left.r") {
-    const json scene = {
+std::string balls(const std::array<double, 3>& other, const std::string& left = "left.r", bool with_mesh = false) {
+    json scene = {
         {"csgrt", 1},
         {"solids",
          {{"a", {{"type", "sphere"}, {"center", {0, 0, 0}}, {"radius", 10}}},
@@ -24,6 +24,19 @@ std::string balls(const std::array<double, 3>& other, const std::string& left = 
           {"right.r", {{"tree", "b"}, {"region", true}, {"id", 2}}},
           {"all", {{"tree", {{"union", {left, "right.r"}}}}}}}},
     };
+    if (with_mesh) {  // a tetrahedron on each side, far away; distances to it are not known
+        json far = {{"type", "bot"}, {"vertices", json::array()}, {"faces", json::array()}};
+        for (const int s : {-1, 1}) {
+            const std::size_t n = far["vertices"].size();
+            for (const std::array<int, 3>& v : {std::array{50, 50, 50}, {51, 50, 50}, {50, 51, 50}, {50, 50, 51}})
+                far["vertices"].push_back({s * v[0], s * v[1], s * v[2]});
+            for (const std::array<std::size_t, 3>& f :
+                 {std::array<std::size_t, 3>{0, 1, 2}, {0, 1, 3}, {0, 2, 3}, {1, 2, 3}})
+                far["faces"].push_back({n + f[0], n + f[1], n + f[2]});
+        }
+        scene["solids"]["far"] = far;
+        scene["combinations"][left]["tree"] = {{"union", {"a", "far"}}};
+    }
     return scene.dump();
 }
 
@@ -42,7 +55,7 @@ TEST_CASE("check prints a table of what overlaps, and writes JSON and rays that 
     CAPTURE(table.out, table.err);
     CHECK(table.status == 8);
     CHECK(table.err.empty());
-    CHECK(table.out.starts_with("  depth mm    at most   volume mm^3       +-  place mm\n"));
+    CHECK(table.out.starts_with("  depth mm    at most   volume mm^3         +-  place mm\n"));
     CHECK(contains(table.out, "\n  /all/left.r /all/right.r\n"));
     CHECK(contains(table.out, "\n1 overlap: 1 new at least 0.01 mm deep, 0 allowed, 0 less deep\n1 pair of regions "));
     std::istringstream lines(table.out);
@@ -161,7 +174,8 @@ TEST_CASE("check tells the largest ball that it does not exclude, and with --cer
     const auto checked = [&](const std::string& scene, const std::string& certain) {
         return run({"check", scene, "--min-depth", "0.005", "--certain", certain, "--json", folder / "json"});
     };
-    const std::string apart = folder.write("apart.json", balls({15, 15, 0}));  // but their boxes overlap
+    const std::string apart =
+        folder.write("apart.json", balls({15, 15, 0}, "left.r", true));  // but their boxes overlap
     for (const char* certain : {"0", "0.02"}) {
         const Result result = checked(apart, certain);
         CAPTURE(result.out, result.err);

@@ -85,21 +85,24 @@ std::string to_text(const CheckResult& result, const CheckRequest& request, cons
         const std::string row = row_of(pair, model);
         text += "  " + (row.size() + 2 <= width ? row : row_of(pair, model, "\n    ")) + "\n";
     };
-    bool has_near = false;
+    bool has_near = false, has_estimate = false;
     const auto seen = static_cast<std::uint64_t>(std::ranges::count(result.unlisted, true, &UnlistedPair::is_seen));
     std::uint64_t allowed = 0, less_deep = 0;
     if (!result.overlaps.empty())
         text +=
-            right("depth mm", 10) + right("at most", 11) + right("volume mm^3", 14) + right("+-", 9) + "  place mm\n";
+            right("depth mm", 10) + right("at most", 11) + right("volume mm^3", 14) + right("+-", 11) + "  place mm\n";
     for (const FoundOverlap& o : result.overlaps) {
         const bool is_known = o.depth > 0, is_near = is_known && o.is_near_limit;
         const bool is_less = !o.is_allowed && !o.is_new && result.is_complete;
         has_near |= is_near;
+        has_estimate |= is_known && o.is_estimate;
         allowed += o.is_allowed;
         less_deep += is_less;
-        text += right((is_known ? format_number("%.5g", o.depth) : "-") + (is_near ? "~" : " "), 10) +
+        text += right((is_known ? format_number("%.5g", o.depth) : "-") + (is_known && o.is_estimate ? "?" : "") +
+                          (is_near ? "~" : " "),
+                      10) +
                 right(format_number("%.5g", o.depth_at_most), 11) + right(format_number("%.5g", o.volume.value), 14) +
-                right(relative(o.volume), 9) + "  " + point_of(o.place, "%.5g") +
+                right(relative(o.volume), 11) + "  " + point_of(o.place, "%.5g") +
                 (o.is_allowed ? "  allowed"
                  : is_less    ? "  less deep"
                               : "") +
@@ -108,6 +111,7 @@ std::string to_text(const CheckResult& result, const CheckRequest& request, cons
     }
     if (!text.empty()) text += "\n";
     if (has_near) text += "~ is near the limit: another seed may find the depth on its other side.\n";
+    if (has_estimate) text += "? is an estimate: the ball was measured along rays, and may be too large.\n";
     text += counted(result.overlaps.size(), "overlap") + ": " + std::to_string(result.new_overlaps) + " new at least " +
             format_number("%g", request.min_depth) + " mm deep, " + std::to_string(allowed) + " allowed, " +
             std::to_string(less_deep) + " less deep\n" + counted(result.candidates, "pair") +
