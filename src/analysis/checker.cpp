@@ -19,11 +19,10 @@ namespace analysis {
 
 namespace {
 
-constexpr std::size_t part = 1024;                                  ///< rays that one thread reads in a row
+constexpr std::size_t rays_in_a_row = 1024;                         ///< rays that one thread reads in a row
 constexpr double rays_of_model = 20'000;                            ///< of a grid through the whole model
 constexpr std::uint64_t views = 3;                                  ///< turned frames of rays through the whole model
 constexpr double rays_of_overlap = 24, more_rays_of_overlap = 192;  ///< of a grid through a pair's common box
-constexpr auto between_looks = std::chrono::milliseconds(200);
 
 }  // namespace
 
@@ -124,8 +123,8 @@ void OverlapSearch::take_sights() {
         std::size_t ray;
         SharedPart part;
     };
-    std::vector<std::vector<Sight>> all((rays.size() + part - 1) / part);
-    for_chunks(rays.size(), part, threads, [&](std::size_t first, std::size_t end, std::size_t chunk) {
+    std::vector<std::vector<Sight>> all((rays.size() + rays_in_a_row - 1) / rays_in_a_row);
+    for_chunks(rays.size(), rays_in_a_row, threads, [&](std::size_t first, std::size_t end, std::size_t chunk) {
         std::vector<SharedPart> parts;
         for (std::size_t ray = first; ray < end; ++ray) {
             shared_parts(ray, parts);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <chrono>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -11,6 +12,8 @@
 #include "analysis/sums.hpp"
 
 namespace csgrt::analysis {
+
+inline constexpr std::chrono::milliseconds between_looks{200};  ///< calls of the look() of a caller
 
 /// Replicates are independent, so their sums may be put into few batches, whose means are independent, too.
 inline constexpr std::size_t least_batches = 16, most_batches = 32;

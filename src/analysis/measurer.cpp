@@ -31,7 +31,6 @@ constexpr std::uint32_t grids = 3;         ///< of a replicate
 constexpr double enough_rows = 64;         ///< fewer intervals may look more alike than they are
 constexpr std::size_t piece = 2048;        ///< rays that one thread sums in a row
 constexpr std::size_t at_once = 1u << 18;  ///< rays that are traced at once
-constexpr auto between_looks = std::chrono::milliseconds(200);
 constexpr std::int32_t everything = -1;
 
 using Clock = std::chrono::steady_clock;

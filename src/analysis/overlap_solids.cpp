@@ -14,7 +14,7 @@ namespace csgrt::analysis {
 namespace {
 
 // Cells of a common box, in levels: so many of a level are divided, or, of more cells, the most promising ones.
-constexpr std::size_t most_cells = 512, promising_cells = 64;
+constexpr double most_solid_cells = 1024, promising_solid_cells = 128;
 constexpr int most_levels = 24;
 constexpr int unknown_levels = 3;  ///< if not all solids have bounds of distances
 
@@ -155,8 +155,8 @@ void OverlapSearch::search_by_solids(std::size_t number, OverlapDepth& depth, do
 void OverlapSearch::look_at_solids() {
     std::vector<std::size_t> all(pairs.size());
     std::iota(all.begin(), all.end(), 0);
-    const auto all_cells = static_cast<std::size_t>(most_cells * request.effort),
-               few_cells = static_cast<std::size_t>(std::max(1.0, promising_cells * request.effort));
+    const auto all_cells = static_cast<std::size_t>(most_solid_cells * request.effort),
+               few_cells = static_cast<std::size_t>(std::max(1.0, promising_solid_cells * request.effort));
     for_overlaps(all, [&](std::size_t i, OverlapDepth& depth) {
         Pair& pair = pairs[i];
         bound(pair, depth, {center_of(pair.box), 0.25 * least_side(pair.box)});
