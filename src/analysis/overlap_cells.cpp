@@ -23,6 +23,7 @@ constexpr std::uint32_t side = 5, cell_rays = 3 * side * side;
 constexpr double enlarged = 1.4;
 constexpr std::uint32_t levels = 7, levels_of_all = 1;
 constexpr double cells_a_level = 192, touching_cells_a_level = 8;
+constexpr double after_solids = 0.25;  ///< of these, for pairs that solids have not shown in cells as small
 
 }  // namespace
 
@@ -73,8 +74,6 @@ void OverlapSearch::search_cells() {
     std::vector<Cell> cells, children;
     for (std::size_t i = 0; i < pairs.size(); ++i)
         if (!is_done(pairs[i])) cells.push_back({.pair = i, .box = pairs[i].box});
-    const double most = std::max(1.0, cells_a_level * request.effort),
-                 most_touching = std::max(1.0, touching_cells_a_level * request.effort);
     const auto touches = [&](const Cell& cell) {
         return std::abs(cell.gap) <= 1e-6 * length(cell.box.high - cell.box.low);
     };
@@ -117,6 +116,9 @@ void OverlapSearch::search_cells() {
             while (end < cells.size() && cells[end].pair == pair) ++end;
             if (level <= levels_of_all) exclude_by_cells(pairs[pair], cells[first].box);
             if (is_done(pairs[pair])) continue;
+            const double effort = request.effort * (pairs[pair].is_searched ? after_solids : 1),
+                         most = std::max(1.0, cells_a_level * effort),
+                         most_touching = std::max(1.0, touching_cells_a_level * effort);
             std::vector<const Cell*> kept;
             for (std::size_t i = first; i < end; ++i)
                 if (level < levels_of_all || (cells[i].is_met_by_first && cells[i].is_met_by_second))

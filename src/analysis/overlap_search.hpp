@@ -118,7 +118,7 @@ struct OverlapSearch {
     /// Whether a part was found that is as long as a ball of the least depth would show.
     bool is_seen(const Pair& pair) const { return pair.is_found && pair.chord.length() >= request.min_depth; }
     /// Whether a search by cells has nothing to add.
-    bool is_done(const Pair& pair) const { return is_seen(pair) || is_shallow(pair) || pair.is_searched; }
+    bool is_done(const Pair& pair) const { return is_seen(pair) || is_shallow(pair); }
     /// Whether no ball of half of the least depth is in the overlap.
     bool is_shallow(const Pair& pair) const { return pair.at_most < 0.5 * request.min_depth; }
     double depth_of(const Pair& pair) const { return std::min(2 * pair.deepest().radius, pair.at_most); }

@@ -14,7 +14,7 @@ namespace csgrt::analysis {
 namespace {
 
 // Cells of a common box, in levels: so many of a level are divided, or, of more cells, the most promising ones.
-constexpr double most_solid_cells = 1024, promising_solid_cells = 128;
+constexpr double most_solid_cells = 2048, promising_solid_cells = 256;
 constexpr int most_levels = 24;
 constexpr int unknown_levels = 3;  ///< if not all solids have bounds of distances
 
@@ -135,8 +135,9 @@ void OverlapSearch::search_by_solids(std::size_t number, OverlapDepth& depth, do
         }
         const bool is_inside = 2 * pair.sure.radius >= 0.5 * request.min_depth;
         if (!is_known && level >= unknown_levels) return;
-        pair.is_searched |= is_known && (kept.empty() || 2 * most < diameter);
-        if (pair.is_searched || (is_inside && kept.size() > promising_cells)) return;
+        const bool is_fine = is_known && (kept.empty() || 2 * most < diameter);
+        pair.is_searched |= is_fine;
+        if (is_fine || (is_inside && kept.size() > promising_cells)) return;
         if (kept.size() > most_cells) {
             if (is_inside || promising_cells == 0) return;
             is_complete = false;
