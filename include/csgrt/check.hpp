@@ -5,10 +5,10 @@
 //         std::printf("%u %u: %g mm deep\n", o.regions[0], o.regions[1], o.depth);
 //
 // Two regions overlap where both claim a part of a ray and neither gives way by its rank (Overlap). Candidates are the
-// pairs whose boxes overlap. Rays through the whole model find most overlaps; then each other candidate's common box is
-// searched in cells, which are divided where both regions were seen, first where they were seen nearest to each other.
-// Random numbers are functions of the seed, and decisions have a fixed order: all devices and numbers of threads give
-// the same bits.
+// pairs of one rank whose boxes overlap. Distances to their solids' surfaces tell in which cells of the common box the
+// two have nothing in common, and how deep they overlap. Rays through the whole model, and through cells of what is
+// left, find the overlaps of other solids, and measure the volumes. Random numbers are functions of the seed, and
+// decisions have a fixed order: all devices and numbers of threads give the same bits.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
-// Checks in steps: pairs of regions whose boxes overlap; rays through the whole model; cells in the common boxes of the
-// pairs that these rays have not found; then depth and volume of what was found.
+// Checks in steps: pairs of regions whose boxes overlap; what distances to their solids tell; rays through the whole
+// model; cells in the common boxes of pairs that are not found yet; then depth and volume of what was found.
 #include <algorithm>
 #include <cmath>
 #include <functional>

@@ -1,6 +1,6 @@
-// Search for overlaps: pairs of regions, and the rays that are traced for them. Three files have its functions:
-// checker.cpp the candidates and what rays show, overlap_cells.cpp the search, overlap_depth.cpp the depths,
-// overlap_certainty.cpp the balls that are excluded for certain.
+// Search for overlaps: pairs of regions, and the rays that are traced for them. checker.cpp has the candidates and what
+// rays show, overlap_solids.cpp what distances to solids tell, overlap_cells.cpp the search by rays, overlap_depth.cpp
+// depths along rays, overlap_certainty.cpp the balls that are excluded for certain.
 #pragma once
 
 #include <csgrt/check.hpp>
