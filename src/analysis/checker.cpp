@@ -257,7 +257,7 @@ bool OverlapSearch::allows(const AllowedOverlap& row, const Pair& pair) const {
     const auto fits = [this](const std::string& pattern, std::uint32_t region) {
         const std::string& path = model.regions()[region].path;
         return fnmatch(pattern.c_str(), path.c_str(), 0) == 0 ||
-               fnmatch((pattern + "/*").c_str(), path.c_str(), 0) == 0;
+               fnmatch((pattern + (pattern.ends_with('/') ? "*" : "/*")).c_str(), path.c_str(), 0) == 0;
     };
     return (fits(row.first, pair.first) && fits(row.second, pair.second)) ||
            (fits(row.first, pair.second) && fits(row.second, pair.first));

@@ -118,12 +118,13 @@ Ctrl-C ends the measure. Ctrl-C prints what there is; the exit status is 130 the
 inline constexpr const char* check_notes = R"(
 Two regions overlap where both claim a part of space; regions that only touch do not. The table has
 two lines for each overlap, the deepest first. The first:
-  depth mm       diameter of the largest ball that was found in it; an estimate, along rays. ~: near
+  depth mm       diameter of the largest ball that was found in it. ?: an estimate, along rays. ~: near
                  the limit, from half of --min-depth to twice --min-depth: another seed may decide
                  otherwise. What is less than half as deep is only counted
   at most        no ball in it has a larger diameter
   volume mm^3    with half of its interval of 95 %
-  place mm       the centre of the ball; then 'allowed', or 'less deep' than --min-depth
+  place mm       the centre of the ball; then 'allowed', or 'less deep' than --min-depth, or 'perhaps
+                 deeper': only a smaller ball was found, but 'at most' is not below --min-depth
 The second has the paths of both regions, as --allow reads them. There * stands for any characters,
 ? for one, [ab] for one of several, and \ before one of these takes away its meaning. A path stands
 for all regions below it, too; a pattern with blanks stands in quotation marks; the order of the
@@ -131,7 +132,9 @@ two does not matter. Rows that no overlap needs are told. The exit status is 8 i
 least --min-depth deep is not allowed.
 
 'largest ball that is not excluded': in pairs that are not listed an overlap may hold it, and none
-that is larger. --certain MM works until it is below MM; it tells the number of rays before.
+that is larger. --certain MM works until it is below MM; it tells the number of rays before. A pair
+that is listed as less deep may still hold the ball: the last line counts such pairs, and the exit
+status does not.
 
 The same seed gives the same figures on every device and any number of threads, unless Ctrl-C ends
 the check. Ctrl-C prints what there is; the exit status is 130 then.

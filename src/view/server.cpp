@@ -24,7 +24,7 @@ namespace {
 
 constexpr std::size_t places = 512, most_threads = 64;
 constexpr std::size_t most_bytes_of_bodies = 8 * most_body_bytes;  // parsed JSON takes up to 40 times as much
-constexpr std::size_t piece = 262'144;  // bytes of an answer between two checks whether the server ends
+constexpr std::size_t bytes_at_once = 262'144;  // bytes of an answer between two checks whether the server ends
 constexpr std::chrono::milliseconds tick{50};
 /// The times after which a client is dropped: while it sends a head or a body, while it sends no request, while it
 /// takes no byte of its answer, and after it was refused.
@@ -133,7 +133,7 @@ void Exchange::answer(int status, const char* type, std::initializer_list<std::s
     std::string begin = head_of(status, type, length, head.is_last);
     left_ = begin.size() + length;
     for (const std::string_view part : parts) {
-        if (begin.size() + part.size() < piece) {
+        if (begin.size() + part.size() < bytes_at_once) {
             begin += part;
             continue;
         }
@@ -148,8 +148,9 @@ void Exchange::write(std::string_view bytes) {
     auto last = std::chrono::steady_clock::now();
     while (is_good_ && !bytes.empty()) {
         // When the server ends, a short answer is still sent: it may tell a page that its frame was cancelled.
-        if (stopping_ && at_start > piece) break;
-        const ssize_t count = send(socket_, bytes.data(), std::min(bytes.size(), piece), MSG_NOSIGNAL | MSG_DONTWAIT);
+        if (stopping_ && at_start > bytes_at_once) break;
+        const ssize_t count =
+            send(socket_, bytes.data(), std::min(bytes.size(), bytes_at_once), MSG_NOSIGNAL | MSG_DONTWAIT);
         if (count > 0) {
             bytes.remove_prefix(static_cast<std::size_t>(count));
             left_ -= static_cast<std::uint64_t>(count);

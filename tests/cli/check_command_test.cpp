@@ -57,7 +57,9 @@ TEST_CASE("check prints a table of what overlaps, and writes JSON and rays that 
     CHECK(table.err.empty());
     CHECK(table.out.starts_with("  depth mm    at most   volume mm^3         +-  place mm\n"));
     CHECK(contains(table.out, "\n  /all/left.r /all/right.r\n"));
-    CHECK(contains(table.out, "\n1 overlap: 1 new at least 0.01 mm deep, 0 allowed, 0 less deep\n1 pair of regions "));
+    CHECK(contains(
+        table.out,
+        "\n1 overlap: 1 new at least 0.01 mm deep, 0 allowed, 0 less deep\nboxes that overlap: 1 pair of 2 regions"));
     std::istringstream lines(table.out);
     for (std::string line; std::getline(lines, line);) CHECK(line.size() <= 80);
 
@@ -143,9 +145,11 @@ TEST_CASE("what is allowed or less deep than --min-depth is listed, but does not
     CHECK(contains(near.out, "  less deep\n"));
     CHECK(contains(near.out, "\n~ is near the limit"));
     CHECK(contains(near.out, "\n1 overlap: 0 new at least 2.5 mm deep, 0 allowed, 1 less deep\n"));
+    const std::string bar = folder.write("mesh.json", balls(deep, "left.r", true));
+    CHECK(contains(run({"check", bar, "--min-depth", "2.0001", "--certain", "2.0001"}).out, " perhaps deeper)\n"));
     const std::string shallow = folder.write("aslant.json", balls(aslant));
     CHECK(contains(run({"check", shallow, "--min-depth", "5"}).out,
-                   "shallower than 2.5 mm, not listed: 1\nnot seen to overlap: 0 pairs; largest ball that is not "));
+                   "shallower than 2.5 mm: 1\nnot seen to overlap: 0 pairs; largest ball that is not "));
 }
 
 TEST_CASE("check names a region without an end, and searches its part in the box of all others", "[promise:check]") {
@@ -182,7 +186,10 @@ TEST_CASE("check tells the largest ball that it does not exclude, and with --cer
         CHECK(result.status == 0);
         CHECK(contains(result.err, "rays to come, some ") == (certain != std::string("0")));
         CHECK(contains(result.out, "\nnot seen to overlap: 1 pair; largest ball that is not excluded: 0."));
-        CHECK(contains(result.out, " mm\n  /all/left.r /all/right.r\n"));
+        CHECK(contains(result.out, "\nA ball of 0.02 mm is in no pair that is not listed.\n") ==
+              (certain != std::string("0")));
+        CHECK(contains(result.out, certain == std::string("0") ? " mm (see --certain)\n  /all/left.r /all/right.r\n"
+                                                               : " mm\n  /all/left.r /all/right.r\n"));
         const json found = json::parse(read_file(folder / "json"));
         CHECK(found["certain"] == std::stod(certain));
         REQUIRE(found["unlisted"].size() == 1);

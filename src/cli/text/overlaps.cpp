@@ -87,7 +87,7 @@ std::string to_text(const CheckResult& result, const CheckRequest& request, cons
     };
     bool has_near = false, has_estimate = false;
     const auto seen = static_cast<std::uint64_t>(std::ranges::count(result.unlisted, true, &UnlistedPair::is_seen));
-    std::uint64_t allowed = 0, less_deep = 0;
+    std::uint64_t allowed = 0, less_deep = 0, perhaps_deeper = 0, not_certain = 0;
     if (!result.overlaps.empty())
         text +=
             right("depth mm", 10) + right("at most", 11) + right("volume mm^3", 14) + right("+-", 11) + "  place mm\n";
@@ -98,14 +98,18 @@ std::string to_text(const CheckResult& result, const CheckRequest& request, cons
         has_estimate |= is_known && o.is_estimate;
         allowed += o.is_allowed;
         less_deep += is_less;
+        const bool is_perhaps_deeper = is_less && o.depth_at_most >= request.min_depth;
+        perhaps_deeper += is_perhaps_deeper;
+        not_certain += o.depth < request.certain && o.depth_at_most >= request.certain;
         text += right((is_known ? format_number("%.5g", o.depth) : "-") + (is_known && o.is_estimate ? "?" : "") +
                           (is_near ? "~" : " "),
                       10) +
                 right(format_number("%.5g", o.depth_at_most), 11) + right(format_number("%.5g", o.volume.value), 14) +
                 right(relative(o.volume), 11) + "  " + point_of(o.place, "%.5g") +
-                (o.is_allowed ? "  allowed"
-                 : is_less    ? "  less deep"
-                              : "") +
+                (o.is_allowed        ? "  allowed"
+                 : is_perhaps_deeper ? "  perhaps deeper"
+                 : is_less           ? "  less deep"
+                                     : "") +
                 "\n";
         add_row(o);
     }
@@ -114,17 +118,24 @@ std::string to_text(const CheckResult& result, const CheckRequest& request, cons
     if (has_estimate) text += "? is an estimate: the ball was measured along rays, and may be too large.\n";
     text += counted(result.overlaps.size(), "overlap") + ": " + std::to_string(result.new_overlaps) + " new at least " +
             format_number("%g", request.min_depth) + " mm deep, " + std::to_string(allowed) + " allowed, " +
-            std::to_string(less_deep) + " less deep\n" + counted(result.candidates, "pair") +
-            " of regions may overlap; shallower than " + format_number("%g", request.min_depth / 2) +
-            (result.is_complete ? " mm, not listed: " + std::to_string(seen)
-                                : " mm, or not measured: " + std::to_string(result.shallow)) +
+            std::to_string(less_deep) + " less deep" +
+            (perhaps_deeper > 0 ? " (" + std::to_string(perhaps_deeper) + " perhaps deeper)" : "") + "\n" +
+            "boxes that overlap: " + counted(result.candidates, "pair") + " of " +
+            counted(model.regions().size(), "region") + "; shallower than " +
+            format_number("%g", request.min_depth / 2) +
+            (result.is_complete ? " mm: " + std::to_string(seen)
+                                : " mm or not measured: " + std::to_string(result.shallow)) +
             "\n";
     if (!result.unlisted.empty()) {
         text += "not seen to overlap: " + counted(result.unlisted.size() - seen, "pair") +
                 "; largest ball that is not excluded: " + format_number("%.4g", result.unlisted.front().depth_at_most) +
-                " mm\n";
+                " mm" + (request.certain > 0 ? "" : " (see --certain)") + "\n";
         add_row(result.unlisted.front());
     }
+    if (request.certain > 0 && result.is_complete)
+        text += "A ball of " + format_number("%g", request.certain) + " mm is in no pair that is not listed" +
+                (not_certain > 0 ? "; in " + std::to_string(not_certain) + " of the listed it is not excluded" : "") +
+                ".\n";
     text += counted(result.rays, "ray") + ", " + format_number("%.1f", result.seconds) + " s\n";
     return text + (result.is_complete ? "" : "The check was ended before it was complete.\n");
 }

@@ -197,7 +197,7 @@ void DistanceBounds::append_pieces(std::uint32_t solid, const Vec3& point, doubl
     if (const double distance = has_body(record) ? body(solid, point) : 0; has_body(record) && distance >= -reach) {
         const Box& box = scene_.solid_boxes[solid];
         const Vec3 size{box.high.x - box.low.x, box.high.y - box.low.y, box.high.z - box.low.z};
-        const double step = 1e-6 * std::sqrt(size.x * size.x + size.y * size.y + size.z * size.z);
+        const double step = 1e-7 * std::sqrt(size.x * size.x + size.y * size.y + size.z * size.z);
         Piece piece{.distance = distance,
                     .is_convex = has_convex_body(record, scene_.reals.data() + record.first_real)};
         for (double Vec3::*const axis : {&Vec3::x, &Vec3::y, &Vec3::z}) {
