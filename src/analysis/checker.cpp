@@ -42,7 +42,7 @@ void OverlapSearch::find_candidates() {
     std::vector<std::uint32_t> order(boxes.size()), open;
     std::iota(order.begin(), order.end(), 0);
     for (const std::uint32_t r : order) {
-        if (is_finite(boxes[r])) continue;
+        if (is_finite(boxes[r]) || boxes[r].low.x > boxes[r].high.x) continue;
         unbounded.push_back(r);
         boxes[r] = common(boxes[r], all);
     }
@@ -81,6 +81,7 @@ void OverlapSearch::trace() {
 /// The parts of a ray that two regions share. A part may be several overlaps, if a third region begins or ends in it.
 void OverlapSearch::shared_parts(std::size_t ray, std::vector<SharedPart>& parts) const {
     parts.clear();
+    double last = -nowhere;  // end of the last overlap
     for (auto k = static_cast<std::size_t>(rows.overlap_splits[ray]);
          k < static_cast<std::size_t>(rows.overlap_splits[ray + 1]); ++k) {
         const double in = rows.overlap_t_in[k], out = rows.overlap_t_out[k];
@@ -91,27 +92,38 @@ void OverlapSearch::shared_parts(std::size_t ray, std::vector<SharedPart>& parts
                 const auto at = numbers.find(static_cast<std::uint64_t>(rows.overlap_region_ids[a]) << 32 |
                                              static_cast<std::uint64_t>(rows.overlap_region_ids[b]));
                 if (at == numbers.end()) continue;
-                const auto before = std::ranges::find_if(
-                    parts, [&](const SharedPart& p) { return p.pair == at->second && p.out == in; });
+                const auto before =
+                    in == last ? std::ranges::find_if(
+                                     parts, [&](const SharedPart& p) { return p.pair == at->second && p.out == in; })
+                               : parts.end();
                 if (before == parts.end())
                     parts.push_back({at->second, in, out});
                 else
                     before->out = out;
             }
         }
+        last = out;
     }
 }
 
 /// The longest part of some traced rays that a pair shares. Adds the lengths of all parts to `sum`.
 RayPart OverlapSearch::longest_part(std::size_t pair, std::size_t first, std::size_t end, double& sum) const {
-    std::vector<SharedPart> parts;
+    const auto first_region = static_cast<std::int32_t>(pairs[pair].first),
+               second_region = static_cast<std::int32_t>(pairs[pair].second);
     RayPart longest;
     for (std::size_t ray = first; ray < end; ++ray) {
-        shared_parts(ray, parts);
-        for (const SharedPart& shared : parts) {
-            if (shared.pair != pair) continue;
-            sum += shared.out - shared.in;
-            if (shared.out - shared.in > longest.length()) longest = {rays[ray], shared.in, shared.out};
+        RayPart part;
+        for (auto k = static_cast<std::size_t>(rows.overlap_splits[ray]);
+             k < static_cast<std::size_t>(rows.overlap_splits[ray + 1]); ++k) {
+            const std::span claimants(rows.overlap_region_ids.data() + rows.overlap_region_splits[k],
+                                      rows.overlap_region_ids.data() + rows.overlap_region_splits[k + 1]);
+            if (!std::ranges::binary_search(claimants, first_region) ||
+                !std::ranges::binary_search(claimants, second_region))
+                continue;
+            const double in = rows.overlap_t_in[k], out = rows.overlap_t_out[k];
+            sum += out - in;
+            part = {rays[ray], part.length() > 0 && part.out == in ? part.in : in, out};
+            if (part.length() > longest.length()) longest = part;
         }
     }
     return longest;

@@ -44,7 +44,8 @@ Thickness thickness(OverlapDepth& depth, const Vec3& center, double half) {
         for (std::size_t k = i + 1; k < planes.size(); ++k) {
             if (!planes[k].is_near || dot(planes[i].normal, planes[k].normal) > -0.5) continue;
             const double between = planes[i].distance(center) + planes[k].distance(center) +
-                                   length(planes[i].normal + planes[k].normal) * half;
+                                   (length(planes[i].normal + planes[k].normal) + 1e-12) * half +
+                                   1e-15 * length(center);
             thick.of_all = std::min(thick.of_all, between);
             if (planes[i].is_sure && planes[k].is_sure) thick.of_sure = std::min(thick.of_sure, between);
         }

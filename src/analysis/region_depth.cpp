@@ -255,7 +255,8 @@ double diameter_behind(const std::vector<TangentPlane>& planes, const Vec3& near
                 }
             }
         }
-    return least + 1e-8 * reach;
+    // Rounding: of distances to planes, and of the point's numbers.
+    return least + 1e-12 * reach + 1e-15 * length(near);
 }
 
 }  // namespace csgrt::analysis

@@ -132,3 +132,33 @@ TEST_CASE("a region of air gives way, so it overlaps no solid") {
     REQUIRE(model.regions().size() == 2);
     CHECK(Checker(model, settings).check().overlaps.empty());
 }
+
+TEST_CASE("the bound of a blade's depth is not below it, however thin the blade is", "[promise:check]") {
+    for (const double half : {1e-2, 3e-3, 1e-4, 1e-6}) {
+        const Scene scene = turned({solid("blade", Ell{{}, {1000, 0, 0}, {0, 500, 0}, {0, 0, half}}),
+                                    test::block("around", {-10, -10, -10}, {10, 10, 10})},
+                                   {leg("blade")}, {leg("around")});
+        const CheckResult result = checked(scene, {.min_depth = half, .certain = half > 1e-5 ? 1.9 * half : 0});
+        CAPTURE(half);
+        REQUIRE(result.overlaps.size() == 1);
+        const FoundOverlap& o = result.overlaps.front();
+        CAPTURE(o.depth, o.depth_at_most);
+        CHECK((o.depth <= 2 * half * (1 + 1e-6) && o.depth > 1.9 * half));
+        CHECK(o.depth_at_most >= 2 * half * (1 - 1e-6));
+    }
+}
+
+TEST_CASE("equal regions, all in one place, overlap pair by pair; an empty one overlaps nothing and has an end") {
+    Scene scene = test::scene({ball("a", {}, 10), ball("far", {100, 0, 0}, 1)});
+    std::vector<std::string>& top = scene.top;
+    for (int i = 0; i < 12; ++i) {
+        top.push_back("r" + std::to_string(i));
+        scene.objects.push_back(region(top.back(), {leg("a")}));
+    }
+    scene.objects.push_back(region("empty", {leg("a"), leg("far"), test::both}));
+    top.push_back("empty");
+    const CheckResult result = checked(scene, {});
+    CHECK(result.overlaps.size() == 12 * 11 / 2);
+    CHECK(result.unbounded.empty());
+    for (const FoundOverlap& o : result.overlaps) CHECK(std::abs(o.depth - 20) < 1e-6);
+}

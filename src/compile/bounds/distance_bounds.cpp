@@ -158,6 +158,57 @@ double local(const kernel::SolidRecord& record, const double* p, double x, doubl
     }
 }
 
+/// The slopes of a convex body's function; 0 where it has a kink. `g`: three numbers.
+void local_slope(const kernel::SolidRecord& record, const double* p, double x, double y, double z, double* g) {
+    const auto set = [g](double gx, double gy, double gz, double length) {
+        g[0] = length > 0 ? gx / length : 0;
+        g[1] = length > 0 ? gy / length : 0;
+        g[2] = length > 0 ? gz / length : 0;
+    };
+    const double rho = std::sqrt(x * x + y * y);
+    switch (record.type) {
+        case SOLID_ELL:
+            return set(x, y, z, std::sqrt(x * x + y * y + z * z));
+        case SOLID_TGC:
+            set(x, y, 0, rho);
+            g[2] = -p[13];
+            return;
+        case SOLID_EHY: {
+            const double root_k = std::sqrt(1 / (1 + 2 * p[12])), gap = root_k * p[12];
+            set(x, y, 0, std::sqrt(x * x + y * y + gap * gap));
+            g[2] = 0.5 * root_k;
+            return;
+        }
+        case SOLID_QUADRIC: {
+            const double w = 1 - z, rho2 = p[12] * x * x + p[13] * y * y;
+            set(p[12] * x, p[13] * y, 0.25 - w, std::sqrt(rho2 + (w - 0.25) * (w - 0.25)));
+            g[2] += 1;
+            return;
+        }
+        case SOLID_PART: {
+            const auto ball = [&](double center) { set(x, y, z - center, std::hypot(rho, z - center)); };
+            const auto of_ball = [&](int i) { return std::hypot(rho, z - p[i]) - p[i + 1]; };
+            if (!(p[18] < p[19])) return ball(of_ball(12) <= of_ball(14) ? p[12] : p[14]);
+            const double secant = std::hypot(1, p[17]), along = p[17] * rho + z;
+            const auto foot = [&](double at) { return p[17] * (p[16] + p[17] * at) + at; };
+            if (along <= foot(p[18])) return ball(p[12]);
+            if (along >= foot(p[19])) return ball(p[14]);
+            set(x, y, 0, rho * secant);
+            g[2] = -p[17] / secant;
+            return;
+        }
+        default: {
+            const double a = std::pow(std::abs(x), p[12]) + std::pow(std::abs(y), p[12]), q = std::pow(a, p[13]),
+                         all = q + std::pow(std::abs(z), p[14]);
+            const auto power = [](double base, double of) { return base > 0 ? std::pow(base, of) : 0; };
+            const double outer = power(all, 1 / p[14] - 1) / p[14], inner = outer * p[13] * power(a, p[13] - 1) * p[12];
+            g[0] = std::copysign(inner * power(std::abs(x), p[12] - 1), x);
+            g[1] = std::copysign(inner * power(std::abs(y), p[12] - 1), y);
+            g[2] = std::copysign(outer * p[14] * power(std::abs(z), p[14] - 1), z);
+        }
+    }
+}
+
 }  // namespace
 
 DistanceBounds::DistanceBounds(const CompiledScene& scene) : scene_(scene) {
@@ -165,12 +216,21 @@ DistanceBounds::DistanceBounds(const CompiledScene& scene) : scene_(scene) {
         scales_.push_back(has_body(record) ? 1 / slope(record, scene.reals.data() + record.first_real) : 1);
 }
 
-double DistanceBounds::body(std::uint32_t solid, const Vec3& point) const {
+double DistanceBounds::body(std::uint32_t solid, const Vec3& point, Vec3* slope) const {
     const kernel::SolidRecord& record = scene_.solids[solid];
     const double* p = scene_.reals.data() + record.first_real;
     const double dx = point.x - p[0], dy = point.y - p[1], dz = point.z - p[2];
-    return scales_[solid] * local(record, p, p[3] * dx + p[4] * dy + p[5] * dz, p[6] * dx + p[7] * dy + p[8] * dz,
-                                  p[9] * dx + p[10] * dy + p[11] * dz);
+    const double x = p[3] * dx + p[4] * dy + p[5] * dz, y = p[6] * dx + p[7] * dy + p[8] * dz,
+                 z = p[9] * dx + p[10] * dy + p[11] * dz;
+    if (slope) {
+        double g[3];
+        local_slope(record, p, x, y, z, g);
+        const auto along = [&](int axis) {
+            return scales_[solid] * (g[0] * p[3 + axis] + g[1] * p[6 + axis] + g[2] * p[9 + axis]);
+        };
+        *slope = {along(0), along(1), along(2)};
+    }
+    return scales_[solid] * local(record, p, x, y, z);
 }
 
 template <class Take>
@@ -195,19 +255,20 @@ void DistanceBounds::append_pieces(std::uint32_t solid, const Vec3& point, doubl
                                    std::vector<Piece>& pieces) const {
     const kernel::SolidRecord& record = scene_.solids[solid];
     if (const double distance = has_body(record) ? body(solid, point) : 0; has_body(record) && distance >= -reach) {
-        const Box& box = scene_.solid_boxes[solid];
-        const Vec3 size{box.high.x - box.low.x, box.high.y - box.low.y, box.high.z - box.low.z};
-        const double step = 1e-7 * std::sqrt(size.x * size.x + size.y * size.y + size.z * size.z);
         Piece piece{.distance = distance,
                     .is_convex = has_convex_body(record, scene_.reals.data() + record.first_real)};
-        for (double Vec3::*const axis : {&Vec3::x, &Vec3::y, &Vec3::z}) {
-            Vec3 before = point, after = point;
-            before.*axis -= step;
-            after.*axis += step;
-            const double low = body(solid, before), high = body(solid, after);
-            piece.slope.*axis = (high - low) / (after.*axis - before.*axis);
-            // At a tip or an axis, where the function has a kink, these are not a tangent plane's slopes.
-            piece.is_convex &= std::abs(high + low - 2 * distance) < 0.01 * step;
+        if (piece.is_convex) {
+            body(solid, point, &piece.slope);
+        } else {
+            const Box& box = scene_.solid_boxes[solid];
+            const Vec3 size{box.high.x - box.low.x, box.high.y - box.low.y, box.high.z - box.low.z};
+            const double step = 1e-6 * std::sqrt(size.x * size.x + size.y * size.y + size.z * size.z);
+            for (double Vec3::*const axis : {&Vec3::x, &Vec3::y, &Vec3::z}) {
+                Vec3 before = point, after = point;
+                before.*axis -= step;
+                after.*axis += step;
+                piece.slope.*axis = (body(solid, after) - body(solid, before)) / (after.*axis - before.*axis);
+            }
         }
         pieces.push_back(piece);
     }

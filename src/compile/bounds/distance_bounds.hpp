@@ -25,14 +25,16 @@ public:
     /// A part of a solid's boundary: its body's or a plane's.
     struct Piece {
         double distance = 0;  ///< mm: the bound
-        Vec3 slope = {};      ///< outwards; how much the bound changes with the point: a unit vector, or shorter
+        /// How much the bound changes with the point: outwards, a unit vector, or shorter. Of a convex piece it is
+        /// exact but for rounding; else it may be a difference.
+        Vec3 slope = {};
         bool is_convex = false, is_plane = false;
     };
     /// Appends the pieces of a solid that has a bound, but for those with the point deeper than `reach` behind them.
     void append_pieces(std::uint32_t solid, const Vec3& point, double reach, std::vector<Piece>& pieces) const;
 
 private:
-    double body(std::uint32_t solid, const Vec3& point) const;
+    double body(std::uint32_t solid, const Vec3& point, Vec3* slope = nullptr) const;
     template <class Take>
     void for_planes(std::uint32_t solid, const Take& take) const;
 
