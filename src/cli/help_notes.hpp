@@ -118,13 +118,13 @@ Ctrl-C ends the measure. Ctrl-C prints what there is; the exit status is 130 the
 inline constexpr const char* check_notes = R"(
 Two regions overlap where both claim a part of space; regions that only touch do not. The table has
 two lines for each overlap, the deepest first. The first:
-  depth mm       diameter of the largest ball that was found in it. ?: an estimate, along rays. ~: near
-                 the limit, from half of --min-depth to twice --min-depth: another seed may decide
-                 otherwise. What is less than half as deep is only counted
+  depth mm       diameter of the largest ball that was found in it. ?: an estimate, along rays. ~:
+                 near the limit, from half of --min-depth to twice --min-depth: another seed may
+                 decide otherwise. What is less than half as deep is only counted
   at most        no ball in it has a larger diameter
   volume mm^3    with half of its interval of 95 %
-  place mm       the centre of the ball; then 'allowed', or 'less deep' than --min-depth, or 'perhaps
-                 deeper': only a smaller ball was found, but 'at most' is not below --min-depth
+  place mm       the centre of the ball; then 'allowed', or 'less deep' than --min-depth, or
+                 'perhaps deeper': less deep, but 'at most' is not below --min-depth
 The second has the paths of both regions, as --allow reads them. There * stands for any characters,
 ? for one, [ab] for one of several, and \ before one of these takes away its meaning. A path stands
 for all regions below it, too; a pattern with blanks stands in quotation marks; the order of the

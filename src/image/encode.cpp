@@ -56,7 +56,8 @@ void interleave(const Image& image, std::size_t first, std::size_t end, std::vec
 
 void describe(OIIO::ImageSpec& spec, const Image& image, bool every_channel) {
     for (const auto& [key, text] : image.attributes) {
-        const bool of_numbers = key == "csgrt:regions" || key == "csgrt:solids";  // about channels that PNG lacks
+        const bool of_numbers = key == "csgrt:regions" || key == "csgrt:solids" ||
+                                key == "csgrt:overlaps";  // about channels that PNG lacks
         if (every_channel || !of_numbers) spec.attribute(key, text);
     }
     for (const auto& [key, matrix] : image.matrices) {
