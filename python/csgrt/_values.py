@@ -8,7 +8,9 @@ from typing import TYPE_CHECKING, Any, NamedTuple, SupportsIndex, TypedDict, Typ
 
 import numpy as np
 
-from ._core import child_members, device_members, overlap_members, region_members, solid_members
+from ._core import (
+    child_members, device_members, overlap_members, region_members, solid_members, unlisted_members,
+)
 
 
 class DeviceName(str):
@@ -454,12 +456,12 @@ class UnlistedPair(NamedTuple):
     """Two regions whose boxes overlap, which are not among the overlaps that a check lists."""
 
     paths: tuple[str, str]
+    regions: tuple[int, int]
     is_seen: bool
     depth_at_most: float
 
 
-_describe(UnlistedPair, paths="Those of the regions", is_seen="Whether the two were found to overlap",
-          depth_at_most="Millimetres: no ball in an overlap of the two has a larger diameter")
+_describe(UnlistedPair, paths="Those of the regions", **unlisted_members)
 
 
 class CheckResult:

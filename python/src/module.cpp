@@ -52,6 +52,7 @@ NB_MODULE(_core, module) {
     module.attr("child_members") = sentences<ChildInfo>();
     module.attr("device_members") = sentences<DeviceInfo>();
     module.attr("overlap_members") = sentences<FoundOverlap>();
+    module.attr("unlisted_members") = sentences<UnlistedPair>();
     nb::dict channels;
     for (const auto& [name, bits] : channel_names) channels[std::string(name).c_str()] = bits;
     module.attr("channels") = channels;

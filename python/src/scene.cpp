@@ -466,15 +466,14 @@ Row checked(LiveScene& scene, const CheckRequest& request) {
     CheckResult result;
     scene.run([&](Renderer&) { result = Checker(model, scene.settings()).check(request); });
     const auto path = [&](std::uint32_t region) { return model.regions()[region].path; };
-    Rows overlaps;
-    Rows unlisted;
+    const auto row = [&](const auto& pair, const auto&... more) {
+        return row_of(pair, nb::make_tuple(path(pair.regions[0]), path(pair.regions[1])), more...);
+    };
+    Rows overlaps, unlisted;
     nb::list unused, unbounded;
-    for (const FoundOverlap& o : result.overlaps)
-        overlaps.append(row_of(o, nb::make_tuple(path(o.regions[0]), path(o.regions[1])), link_of(o, model)));
-    for (const UnlistedPair& pair : result.unlisted)
-        unlisted.append(nb::make_tuple(nb::make_tuple(path(pair.regions[0]), path(pair.regions[1])), pair.is_seen,
-                                       pair.depth_at_most));
-    for (const AllowedOverlap& row : result.unused) unused.append(nb::make_tuple(row.first, row.second));
+    for (const FoundOverlap& o : result.overlaps) overlaps.append(row(o, link_of(o, model)));
+    for (const UnlistedPair& pair : result.unlisted) unlisted.append(row(pair));
+    for (const AllowedOverlap& rule : result.unused) unused.append(nb::make_tuple(rule.first, rule.second));
     for (const std::uint32_t region : result.unbounded) unbounded.append(path(region));
     nb::dict numbers;
     form::for_members(form::of<CheckResult>, [&](const auto& member) {

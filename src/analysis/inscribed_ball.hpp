@@ -88,4 +88,11 @@ inline Vec3 between(const std::vector<TangentPlane>& planes, const Vec3& start, 
     return x;
 }
 
+/// Climb's next point, from a point. All planes lead to the middle of a convex body, the ones that it is in front
+/// of, `near`, along a curved one.
+inline Vec3 climbed(const std::vector<TangentPlane>& planes, const std::vector<TangentPlane>& near, const Vec3& from,
+                    double reach, bool by_all) {
+    return between(by_all || near.size() < 4 ? planes : near, from, reach);
+}
+
 }  // namespace csgrt::analysis

@@ -26,9 +26,9 @@ struct Line {
 
 namespace {
 
-// Climbs to the deepest point of an overlap: starting points that are compared, those that are climbed from, rounds,
-// and last rounds that only look around at the deepest point.
-constexpr std::size_t starts = 8, climbs_of_pair = 2, most_normals = 6;
+// Climbs to the deepest point of an overlap: starting points that are compared, rounds, and last rounds that only look
+// around at the deepest point.
+constexpr std::size_t starts = 8, most_normals = 6;
 constexpr std::uint64_t rounds = 6, last_rounds = 2;
 
 /// The range of a ray within a box that holds its origin, and a little more.
@@ -181,8 +181,7 @@ void OverlapSearch::climb_by_rays(std::span<const std::size_t> which) {
             if (const double radius = radius_of(near, lines, climb.point); radius > climb.ball.radius)
                 climb.ball = {climb.point, radius};
             keep_normals(climb, planes);
-            // All planes lead to the middle of a convex overlap, those near by along a curved one.
-            climb.point = between(round % 2 == 1 || near.size() < 4 ? planes : near, climb.point, 10 * reach);
+            climb.point = climbed(planes, near, climb.point, 10 * reach, round % 2 == 1);
         });
     }
     for (Climb& climb : climbs) climb.point = climb.ball.center;

@@ -23,8 +23,9 @@ namespace csgrt::analysis {
 using Clock = std::chrono::steady_clock;
 
 inline constexpr std::size_t rays_at_once = 1u << 18;
-inline constexpr double near_enough = 0.9;  ///< the share of a depth along rays at which one by solids is taken
-inline constexpr double settled = 0.97;     ///< the share of its bound at which a depth is good enough
+inline constexpr std::size_t climbs_of_pair = 2;  ///< from the deepest of the starting points
+inline constexpr double near_enough = 0.9;        ///< the share of a depth along rays at which one by solids is taken
+inline constexpr double settled = 0.97;           ///< the share of its bound at which a depth is good enough
 inline constexpr double nowhere = std::numeric_limits<double>::infinity();
 
 /// Part of a ray that both regions of a pair claim.

@@ -18,10 +18,8 @@ constexpr double most_solid_cells = 2048, promising_solid_cells = 256;
 constexpr int most_levels = 24;
 constexpr int unknown_levels = 3;  ///< if not all solids have bounds of distances
 
-// Climbs: those of a pair, their rounds; planes that are compared for a bound.
-constexpr std::size_t climbs_by_solids = 2;
-constexpr int rounds_by_solids = 16;
-constexpr std::size_t most_supports = 20;
+constexpr int rounds_by_solids = 16;       ///< of a climb
+constexpr std::size_t most_supports = 20;  ///< planes that are compared for a bound
 
 /// A box around a cell that holds the balls which are as large as the cell around its parts' centres.
 Box twice(const Box& cell) {
@@ -162,7 +160,7 @@ void OverlapSearch::look_at_solids() {
     for_overlaps(all, [&](std::size_t i, OverlapDepth& depth) {
         Pair& pair = pairs[i];
         bound(pair, depth, {center_of(pair.box), 0.25 * least_side(pair.box)});
-        // Of pairs that hold no ball of that size it is only told whether they overlap.
+        // Pairs that hold no ball of that size are searched only for whether they overlap.
         const double nothing = 1e-7 * length(pair.box.high - pair.box.low);
         if (pair.at_most > nothing)
             search_by_solids(i, depth, 0.5 * std::min(request.min_depth, pair.at_most), all_cells, few_cells);
@@ -183,13 +181,12 @@ void OverlapSearch::climb_by_solids(std::span<const std::size_t> which) {
         if (pair.ball.radius > 0) balls.push_back({pair.ball.center, depth.at(pair.ball.center).in});
         std::ranges::stable_sort(balls, std::greater{}, &Ball::radius);
         std::vector<TangentPlane> planes;
-        for (Ball ball : std::span(balls).first(std::min(climbs_by_solids, balls.size()))) {
+        for (Ball ball : std::span(balls).first(std::min(climbs_of_pair, balls.size()))) {
             for (int round = 0; round < rounds_by_solids && ball.radius > 0; ++round) {
                 planes.clear();
                 depth.append_planes(ball.center, nowhere, planes);
                 const std::vector<TangentPlane> near = faced(planes, ball.center);
-                // All planes lead to the middle of a convex overlap, those near by along a curved one.
-                Vec3 point = between(round % 2 == 0 || near.size() < 4 ? planes : near, ball.center, 10 * ball.radius);
+                Vec3 point = climbed(planes, near, ball.center, 10 * ball.radius, round % 2 == 0);
                 double radius = depth.at(point).in;
                 for (int half = 0; half < 6 && !(radius > ball.radius); ++half) {
                     point = 0.5 * (point + ball.center);

@@ -13,7 +13,7 @@ constexpr double unknown = -std::numeric_limits<double>::infinity();
 
 }  // namespace
 
-/// Of a solid without a bound it is known how far outside of its box the point is.
+/// Solids without a bound tell how far outside of their box the point is.
 Depth RegionDepth::of_solid(std::uint32_t solid, const Vec3& point) const {
     if (bounds_.has(solid)) {
         const double outside = bounds_.at(solid, point);
@@ -51,8 +51,7 @@ RegionDepth::RegionDepth(const CompiledScene& scene, const DistanceBounds& bound
 /// Copies a tree; a solid whose box has nothing in common with the box is the empty set there, and so are operators
 /// that it makes so.
 void RegionDepth::reduce(const std::vector<FlatTree::Node>& tree, const Box& box) {
-    std::vector<std::size_t>
-        first;  // by operand: where it begins, in nodes_; an empty one begins where the next one does
+    std::vector<std::size_t> first;  // by operand: where it begins in nodes_; an empty one has no nodes there
     for (const FlatTree::Node& node : tree) {
         const std::size_t at = nodes_.size();
         if (node.op == Operator::leaf) {
@@ -64,10 +63,12 @@ void RegionDepth::reduce(const std::vector<FlatTree::Node>& tree, const Box& box
         }
         const std::span<const std::size_t> operands(first.end() - node.arity, first.end());
         const std::size_t begin = operands.empty() ? at : operands[0];
+        const auto is_there = [&](std::size_t k) {
+            return (k + 1 < operands.size() ? operands[k + 1] : at) > operands[k];
+        };
         std::uint32_t arity = 0;
-        for (std::size_t k = 0; k < operands.size(); ++k)
-            arity += (k + 1 < operands.size() ? operands[k + 1] : at) > operands[k];
-        const bool has_first = !operands.empty() && (operands.size() > 1 ? operands[1] : at) > operands[0];
+        for (std::size_t k = 0; k < operands.size(); ++k) arity += is_there(k);
+        const bool has_first = !operands.empty() && is_there(0);
         first.resize(first.size() - node.arity);
         first.push_back(begin);
         FlatTree::Node kept = node;
@@ -164,7 +165,7 @@ void RegionDepth::append_planes(const Vec3& point, double reach, std::vector<Tan
         const bool is_xor = node.op == Operator::xor_;
         const bool is_all = is_xor || node.op == Operator::not_ ||
                             inside == (node.op == Operator::intersection || node.op == Operator::difference);
-        // Of operands of which one is enough, the deepest counts, alone if the others are out of reach.
+        // Operands of which one is enough: the deepest counts, alone if the others are out of reach.
         struct Operand {
             std::size_t node;
             bool inside;

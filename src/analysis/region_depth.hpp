@@ -12,12 +12,12 @@
 
 namespace csgrt::analysis {
 
-/// What is known of a point's distance from a region's boundary, in millimetres.
+/// Distance of a point from a region's boundary, as far as it is known, in millimetres.
 struct Depth {
     double in = 0, out = 0;  ///< a ball of this radius lies inside, outside; 0 or less: none is known to
 };
 
-/// What a region's tree says of points in a box. For one thread; its memory serves point after point.
+/// Region's tree for points in a box. For one thread; its memory serves point after point.
 class RegionDepth {
 public:
     RegionDepth(const CompiledScene& scene, const DistanceBounds& bounds, const std::vector<FlatTree::Node>& tree,
@@ -46,7 +46,7 @@ private:
     std::vector<DistanceBounds::Piece> pieces_;
 };
 
-/// What two regions have in common, in a box that holds all of it.
+/// Overlap of two regions, in a box that holds all of it.
 class OverlapDepth {
 public:
     OverlapDepth(const CompiledScene& scene, const DistanceBounds& bounds, std::uint32_t first, std::uint32_t second,
