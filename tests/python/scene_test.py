@@ -408,7 +408,8 @@ def test_check_finds_overlaps(tmp_path):
     assert len(result) == 1 and list(result) == result.overlaps == result.new and result.is_complete
     assert result.new_overlaps == 1 and result.candidates >= 1 and result.shallow == 0 and result.rays > 0
     assert result.unbounded == ["/ground"] and result.unused == []
-    assert [(pair.regions[1], pair.is_seen) for pair in result.unlisted] == [(2, False)] * 2
+    assert {pair.paths for pair in result.unlisted} == {(part, "/ground") for part in ("/left", "/right", "/touching")}
+    assert all(pair.regions[1] == 3 and not pair.is_seen for pair in result.unlisted)
     overlap = result.overlaps[0]
     assert overlap.paths == ("/left", "/right") == tuple(scene.regions[i].path for i in overlap.regions)
     assert 0.99 < overlap.depth <= overlap.depth_at_most < 1.01 and not overlap.is_allowed and not overlap.is_near_limit
